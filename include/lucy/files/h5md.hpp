@@ -1,0 +1,51 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// point_001.h5: time series and frames of one point in H5MD 1.1 (P. de Buyl, P. H. Colberg, F. Hoefling, Comput. Phys.
+// Commun. 185, 1546 (2014)), reduced units.
+//
+//     /h5md                              version [1,1], author, creator
+//     /parameters                        the point, as attributes
+//     /observables/replica_01/NAME       step, time, value [samples]; step and time are one dataset, hard-linked
+//     /particles/replica_01/position     step, time, value [frames][N][2]: wrapped into [0, L)
+//                          /velocity     laboratory: peculiar momentum / m + strain_rate y e_x
+//                          /momentum     peculiar
+//                          /box          dimension, boundary; edges: step, time, value [frames][2][2], the rows being
+//                                        the edge vectors (L_x, 0) and (offset, L_y)
+//                          /lees_edwards offset (x-shift of the image above), direction (0: x), normal (1: y)
+//
+// The value at (step, time) of an observable is the average over the sample interval that ends there. Step and time
+// count from the start of the run, equilibration included; steps are those of the stated size, however subdivided.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "lucy/cases/couette.hpp"
+#include "lucy/files/frame_spool.hpp"
+
+namespace lucy::files {
+
+struct H5mdAuthorship {
+  std::string author = "unknown";
+  std::string creator = "lucy";
+  std::string creator_version;
+};
+
+/// What one replica contributes; both referred-to objects must live until the file is written.
+struct H5mdReplica {
+  int replica = 0;  ///< from 0: group replica_01
+  const cases::CouetteRecord* record = nullptr;
+  std::int64_t equilibration_intervals = 0;  ///< CouetteRun::intervals_needed(0)
+  const FrameSpool* frames = nullptr;        ///< null or empty: no particles group
+};
+
+/// Writes the file under a temporary name and renames it. The same contents give the same bytes (no time stamps).
+/// The file is put together in memory (72 bytes per sample, 48 per particle and frame). May be called from several
+/// threads; they take turns. Throws RunFailed with path and reason.
+void write_h5md(const std::filesystem::path& path, const cases::CouettePoint& point,
+                std::span<const H5mdReplica> replicas, const H5mdAuthorship& authorship);
+
+}  // namespace lucy::files

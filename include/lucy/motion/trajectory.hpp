@@ -1,0 +1,126 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One system on its way: particles in a sheared periodic box, moved step by step, with the list of neighbours kept up
+// and the energy watched. This is where kernel, box, pairs, equations of motion and integrator meet:
+//
+//     advance(dt):  list still good for dt? else wrap, sort, list anew
+//                   integrate a trial step                        (four pair sums; the last step's last one serves too)
+//                   |dE - work - heat|/N above the tolerance?     back, and again in two halves
+//                   rescale momenta against the residual error    (Posch, Hoover and Kum, Sec. III)
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lucy/archive.hpp"
+#include "lucy/kernel/lucy.hpp"
+#include "lucy/md/lucy_atoms.hpp"
+#include "lucy/measure/kinetic.hpp"
+#include "lucy/motion/settings.hpp"
+#include "lucy/motion/sllod.hpp"
+#include "lucy/motion/start.hpp"
+#include "lucy/pairs/cluster_list.hpp"
+#include "lucy/space/box.hpp"
+
+namespace lucy::motion {
+
+struct Watch {
+  double energy_tolerance = 1e-5;  ///< |dE|/N of one step above which it is done again in halves
+  bool rescale = true;             ///< isoenergetic: E back to its start, isokinetic: K; no effect on the others
+  int most_halvings = 12;
+};
+
+/// What the watch saw.
+struct WatchReport {
+  std::int64_t steps = 0;
+  std::int64_t subdivided_steps = 0;
+  double worst_energy_error = 0.0;  ///< |dE|/N of one accepted (sub)step, before rescaling
+  double energy_rescaled = 0.0;     ///< sum of what rescaling put back, per particle, signed
+};
+
+template <int D>
+class Trajectory {
+ public:
+  static constexpr int columns = 2 * D;
+
+  Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear, Integrator integrator,
+             const Watch& watch, const Team& team);
+
+  /// Moves on by `dt`. Throws RunFailed when even the smallest substep loses energy.
+  void advance(double dt);
+
+  /// Sorts the particles and makes the neighbour list anew, for steps of `dt`. The list is no part of what save()
+  /// writes: a loaded trajectory goes on with the same bits as the saved one if both renew their list first.
+  void renew_list(double dt);
+
+  std::int64_t particles() const { return static_cast<std::int64_t>(particles_); }
+  double time() const { return time_; }
+  double volume() const { return box_.volume(); }
+  /// The box as it is now.
+  space::Box<D> box() const;
+  const WatchReport& report() const { return report_; }
+
+  /// Pair sums, kinetic sums and total energy of the present state.
+  const md::PairTotals<D>& pair_totals() const { return pair_totals_; }
+  const measure::KineticSums<D>& kinetic() const { return kinetic_; }
+  double energy() const { return pair_totals_.potential_energy + kinetic_.kinetic_energy(); }
+  double friction() const { return friction_.zeta; }
+
+  /// By particle number, wrapped into the box: x0 y0 x1 y1 ...; peculiar momenta in the same order; forces likewise.
+  std::vector<double> positions() const;
+  std::vector<double> momenta() const { return by_particle(now_.columns, D); }
+  std::vector<double> forces() const { return by_particle(force_, 0); }
+
+  void save(ArchiveWriter& archive) const;
+  void load(ArchiveReader& archive);
+
+  // What runge_kutta_4 asks of its system.
+  void prepare(const Phase<sllod_numbers>& at, double age);
+  void rate(const space::Columns& at, std::size_t begin, std::size_t count, ChunkRates<columns>& k) const {
+    sllod_rate<D>(at, force_, shear_.strain_rate, friction_.zeta, begin, count, k);
+  }
+  std::array<double, sllod_numbers> number_rates() const { return {friction_.zeta_rate, friction_.energy_rate}; }
+
+ private:
+  static std::array<const double*, D> pointers(const space::Columns& columns, int first);
+  bool list_lasts(double dt);
+  bool try_step(double dt);
+  void evaluate(const Phase<sllod_numbers>& at, double age, md::Wanted wanted);
+  void rescale();
+  std::vector<double> by_particle(const space::Columns& columns, int first) const;
+
+  kernel::Lucy<D> kernel_;
+  Shear shear_;
+  Integrator integrator_;
+  Watch watch_;
+  Team team_;
+  std::size_t particles_;
+  space::Box<D> box_;  // at the moment the list was made
+  pairs::ClusterList<D> list_;
+
+  std::vector<std::int32_t> number_;  // of the particle in each slot
+  Phase<sllod_numbers> now_;
+  Phase<sllod_numbers> next_;
+  space::Columns sum_;    // scratch of the integrator
+  space::Columns force_;  // at `now_`, between steps
+  double time_ = 0.0;
+
+  double list_age_ = 0.0;
+  double list_lifetime_ = 0.0;
+  double list_acceleration_ = 0.0;  // bound on every particle's, since the list was made
+  int halvings_ = 0;                // of the present step
+  double last_error_ = 0.0;         // |dE|/N of the last trial step
+  double conserved_ = 0.0;          // E (isoenergetic) or K (isokinetic) at the start
+
+  md::PairTotals<D> pair_totals_;
+  measure::KineticSums<D> kinetic_;
+  SllodFriction friction_;
+  WatchReport report_;
+};
+
+extern template class Trajectory<2>;
+extern template class Trajectory<3>;
+
+}  // namespace lucy::motion

@@ -1,0 +1,241 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/cases/couette.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lucy/errors.hpp"
+#include "lucy/motion/trajectory.hpp"
+
+namespace lucy::cases {
+
+namespace {
+
+constexpr double default_sample_interval = 0.5;
+constexpr double most_samples = 20000.0;
+constexpr double fewest_samples = 10.0;
+
+// Scrambles 64 bits (the finaliser of SplitMix64, Steele, Lea and Flood, 2014).
+std::uint64_t scramble(std::uint64_t z) {
+  z += 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return z ^ (z >> 31U);
+}
+
+std::int64_t steps_in(double time, double step) { return std::llround(time / step); }
+
+}  // namespace
+
+std::uint64_t replica_seed(const CouettePoint& point, int replica) {
+  std::uint64_t seed = scramble(point.seed);
+  for (const std::uint64_t part :
+       {static_cast<std::uint64_t>(replica), static_cast<std::uint64_t>(point.particles),
+        std::bit_cast<std::uint64_t>(point.energy_per_particle), std::bit_cast<std::uint64_t>(point.strain_rate)}) {
+    seed = scramble(seed ^ part);
+  }
+  return seed;
+}
+
+int sample_steps(const CouettePoint& point) {
+  double interval = point.sample_interval;
+  if (interval <= 0.0) {
+    interval = std::max(default_sample_interval, point.duration / most_samples);
+    interval = std::min(interval, point.duration / fewest_samples);
+    // Frames fall on sample boundaries: a whole number of samples between frames.
+    if (point.frame_interval > 0.0) {
+      const std::int64_t between = std::max<std::int64_t>(1, steps_in(point.frame_interval, point.step));
+      auto steps = std::clamp<std::int64_t>(steps_in(interval, point.step), 1, between);
+      while (between % steps != 0) --steps;
+      return static_cast<int>(steps);
+    }
+  }
+  return static_cast<int>(std::max<std::int64_t>(1, steps_in(interval, point.step)));
+}
+
+void validate(const CouettePoint& point) {
+  const auto refuse = [](std::string message) { throw BadInput(std::move(message)); };
+  if (point.dimension != 2) refuse(fmt::format("system.dimension = {} must be 2", point.dimension));
+  if (point.reading != "md") refuse(fmt::format("system.reading = \"{}\" must be \"md\"", point.reading));
+  if (point.kernel != "lucy") refuse(fmt::format("kernel.name = \"{}\" must be \"lucy\"", point.kernel));
+  if (!(point.step > 0.0 && point.step <= 0.2)) {
+    refuse(fmt::format("run.step = {} must be above 0 and at most 0.2", point.step));
+  }
+  if (!(point.duration > 0.0)) refuse(fmt::format("run.duration = {} must be above 0", point.duration));
+  if (point.particles < 4 || point.particles > 100'000'000) {
+    refuse(fmt::format("system.particles = {} must be between 4 and 100000000", point.particles));
+  }
+  if (!(point.density > 0.0)) refuse(fmt::format("system.density = {} must be above 0", point.density));
+
+  const kernel::Lucy<2> kernel(point.range);
+  const auto sites = motion::near_square(point.particles);
+  if (sites) {
+    const double shortest = static_cast<double>((*sites)[1]) / std::sqrt(point.density);
+    if (shortest < 2.0 * point.range) {
+      refuse(fmt::format("system.particles = {} at density {} make a box of side {:.4g}, below twice kernel.range = {}",
+                         point.particles, point.density, shortest, point.range));
+    }
+  }
+  motion::refuse_impossible_start(kernel, point.particles, point.density, point.energy_per_particle);
+
+  if (point.integrator == motion::Integrator::velocity_verlet &&
+      (point.strain_rate != 0.0 ||
+       (point.thermostat != motion::Thermostat::none && point.thermostat != motion::Thermostat::isoenergetic))) {
+    refuse("run.integrator = \"velocity-verlet\" needs shear.strain_rate = 0 and thermostat \"none\" or "
+           "\"isoenergetic\" (plain Newtonian motion); use \"rk4\"");
+  }
+  if (std::abs(point.strain_rate) * point.step > 0.5) {
+    refuse(fmt::format("run.step = {} at shear.strain_rate = {} strains the box by more than 0.5 in one step",
+                       point.step, point.strain_rate));
+  }
+  const auto whole_steps = [&](const char* key, double interval) {
+    const double steps = interval / point.step;
+    if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6 * steps) {
+      refuse(fmt::format("{} = {} must be a whole number of steps of run.step = {}", key, interval, point.step));
+    }
+  };
+  if (point.sample_interval > 0.0) whole_steps("output.sample_interval", point.sample_interval);
+  if (point.frame_interval > 0.0) {
+    whole_steps("output.frame_interval", point.frame_interval);
+    if (point.sample_interval > 0.0 &&
+        steps_in(point.frame_interval, point.step) % steps_in(point.sample_interval, point.step) != 0) {
+      refuse(fmt::format("output.frame_interval = {} must be a multiple of output.sample_interval = {}",
+                         point.frame_interval, point.sample_interval));
+    }
+  }
+}
+
+struct CouetteRun::Implementation {
+  using Trajectory = motion::Trajectory<2>;
+
+  Implementation(const CouettePoint& settings, int replica, int threads)
+      : point(settings), steps_per_sample(sample_steps(settings)), trajectory(make(settings, replica, threads)) {
+    equilibration_intervals = intervals(point.equilibration);
+    record.sample_interval = steps_per_sample * point.step;
+  }
+
+  static Trajectory make(const CouettePoint& point, int replica, int threads) {
+    const kernel::Lucy<2> kernel(point.range);
+    const motion::Start<2> start = motion::lattice_start(kernel, point.particles, point.density,
+                                                         point.energy_per_particle, replica_seed(point, replica));
+    motion::Shear shear;
+    shear.strain_rate = point.strain_rate;
+    shear.thermostat = point.thermostat;
+    shear.relaxation_time = point.relaxation_time;
+    if (point.kinetic_temperature) {
+      shear.target_kinetic_energy = *point.kinetic_temperature * static_cast<double>(point.particles - 1);
+    }
+    motion::Watch watch;
+    watch.energy_tolerance = point.energy_tolerance;
+    watch.rescale = point.rescale;
+    return Trajectory(kernel, start, shear, point.integrator, watch, Team(threads));
+  }
+
+  std::int64_t intervals(double time) const {
+    return static_cast<std::int64_t>(std::ceil(time / (steps_per_sample * point.step) - 1e-6));
+  }
+
+  Sample observe() const {
+    const double volume = trajectory.volume();
+    const auto n = static_cast<double>(point.particles);
+    const auto& kinetic = trajectory.kinetic();
+    const auto& pair = trajectory.pair_totals();
+    return {pair.potential_energy / n,
+            kinetic.kinetic_energy() / (n - 1.0),
+            kinetic.momentum_flux(0, 1) / volume,
+            pair.virial(0, 1) / volume,
+            kinetic.momentum_flux(0, 0) / volume,
+            pair.virial(0, 0) / volume,
+            kinetic.momentum_flux(1, 1) / volume,
+            pair.virial(1, 1) / volume,
+            kinetic.largest_share()};
+  }
+
+  CouettePoint point;
+  int steps_per_sample;
+  std::int64_t equilibration_intervals = 0;
+  std::int64_t done = 0;
+  Trajectory trajectory;
+  CouetteRecord record;
+};
+
+CouetteRun::CouetteRun(const CouettePoint& point, int replica, int threads)
+    : self_(std::make_unique<Implementation>(point, replica, threads)) {}
+CouetteRun::~CouetteRun() = default;
+CouetteRun::CouetteRun(CouetteRun&&) noexcept = default;
+CouetteRun& CouetteRun::operator=(CouetteRun&&) noexcept = default;
+
+void CouetteRun::advance_one_sample() {
+  Implementation& self = *self_;
+  self.trajectory.renew_list(self.point.step);
+  Sample sum{};
+  for (int step = 0; step < self.steps_per_sample; ++step) {
+    self.trajectory.advance(self.point.step);
+    const Sample present = self.observe();
+    for (std::size_t q = 0; q < sum.size(); ++q) sum[q] += present[q];
+  }
+  for (double& value : sum) value /= self.steps_per_sample;
+  if (self.done >= self.equilibration_intervals) self.record.samples.push_back(sum);
+  ++self.done;
+  const motion::WatchReport& report = self.trajectory.report();
+  self.record.worst_energy_error = report.worst_energy_error;
+  self.record.steps = report.steps;
+  self.record.subdivided_steps = report.subdivided_steps;
+  self.record.energy_rescaled = report.energy_rescaled;
+}
+
+std::int64_t CouetteRun::intervals_done() const { return self_->done; }
+
+std::int64_t CouetteRun::intervals_needed(double duration) const {
+  return self_->equilibration_intervals + self_->intervals(duration);
+}
+
+const CouetteRecord& CouetteRun::record() const { return self_->record; }
+
+CouetteFrame CouetteRun::frame() const {
+  const auto& trajectory = self_->trajectory;
+  const auto box = trajectory.box();
+  CouetteFrame frame;
+  frame.step = self_->done * self_->steps_per_sample;
+  frame.time = static_cast<double>(frame.step) * self_->point.step;
+  frame.offset = box.offset();
+  frame.box = box.lengths();
+  frame.position = trajectory.positions();
+  frame.momentum = trajectory.momenta();
+  return frame;
+}
+
+bool CouetteRun::frame_due() const {
+  const Implementation& self = *self_;
+  if (self.point.frame_interval <= 0.0 || self.done < self.equilibration_intervals) return false;
+  const std::int64_t between = steps_in(self.point.frame_interval, self.point.step) / self.steps_per_sample;
+  return (self.done - self.equilibration_intervals) % between == 0;
+}
+
+void CouetteRun::save(ArchiveWriter& archive) const {
+  const Implementation& self = *self_;
+  archive.put(self.done);
+  archive.put_sequence(self.record.samples);
+  archive.put(self.record.worst_energy_error);
+  archive.put(self.record.steps);
+  archive.put(self.record.subdivided_steps);
+  archive.put(self.record.energy_rescaled);
+  self.trajectory.save(archive);
+}
+
+void CouetteRun::load(ArchiveReader& archive) {
+  Implementation& self = *self_;
+  self.done = archive.get<std::int64_t>();
+  archive.get_sequence(self.record.samples);
+  self.record.worst_energy_error = archive.get<double>();
+  self.record.steps = archive.get<std::int64_t>();
+  self.record.subdivided_steps = archive.get<std::int64_t>();
+  self.record.energy_rescaled = archive.get<double>();
+  self.trajectory.load(archive);
+}
+
+}  // namespace lucy::cases

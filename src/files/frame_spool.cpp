@@ -1,0 +1,116 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/files/frame_spool.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <utility>
+
+#include "file_descriptor.hpp"
+#include "lucy/archive.hpp"
+#include "lucy/errors.hpp"
+
+namespace lucy::files {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
+  const int reason = errno;
+  throw RunFailed(fmt::format("cannot {} the frames in {}: {}", what, path.string(),
+                              reason == 0 ? "the file is shorter than it was" : system_reason(reason)));
+}
+
+}  // namespace
+
+FrameSpool::FrameSpool(const std::filesystem::path& path, std::int64_t particles) : path_(path), particles_(particles) {
+  FileDescriptor file(path.string(), O_RDWR | O_CREAT);
+  struct stat status {};
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0) fail(path_, "open");
+  count_ = status.st_size / record_size();
+  descriptor_ = file.release();
+}
+
+FrameSpool::~FrameSpool() { close_file(); }
+
+FrameSpool::FrameSpool(FrameSpool&& other) noexcept
+    : path_(std::move(other.path_)),
+      particles_(other.particles_),
+      count_(other.count_),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FrameSpool& FrameSpool::operator=(FrameSpool&& other) noexcept {
+  if (this != &other) {
+    close_file();
+    path_ = std::move(other.path_);
+    particles_ = other.particles_;
+    count_ = other.count_;
+    descriptor_ = std::exchange(other.descriptor_, -1);
+  }
+  return *this;
+}
+
+void FrameSpool::close_file() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::int64_t FrameSpool::record_size() const { return 8 * (5 + 4 * particles_); }
+
+void FrameSpool::append(const cases::CouetteFrame& frame) {
+  const auto numbers = static_cast<std::size_t>(2 * particles_);
+  if (frame.position.size() != numbers || frame.momentum.size() != numbers)
+    throw RunFailed(fmt::format("a frame of {} particles cannot be added to {}, which holds frames of {}",
+                                frame.position.size() / 2, path_.string(), particles_));
+  ArchiveWriter record;
+  record.put(frame.step);
+  record.put(frame.time);
+  record.put(frame.offset);
+  record.put(frame.box);
+  std::vector<std::byte> bytes = record.bytes();
+  for (const auto* values : {&frame.position, &frame.momentum}) {
+    const auto view = std::as_bytes(std::span(*values));
+    bytes.insert(bytes.end(), view.begin(), view.end());
+  }
+  // Written at the place that `count` gives, so that half a record left by an earlier failure is overwritten.
+  if (::lseek(descriptor_, count_ * record_size(), SEEK_SET) < 0 || !write_all(descriptor_, bytes))
+    fail(path_, "add to");
+  ++count_;
+}
+
+void FrameSpool::truncate(std::int64_t count) {
+  if (count < 0 || count > count_)
+    throw RunFailed(fmt::format("{} holds {} frames where the checkpoint knows of {}", path_.string(), count_, count));
+  if (::ftruncate(descriptor_, count * record_size()) != 0) fail(path_, "cut off");
+  count_ = count;
+}
+
+void FrameSpool::synchronise() {
+  if (::fsync(descriptor_) != 0) fail(path_, "force to disk");
+}
+
+cases::CouetteFrame FrameSpool::read(std::int64_t index) const {
+  if (index < 0 || index >= count_)
+    throw RunFailed(fmt::format("{} has no frame {}: it holds {}", path_.string(), index, count_));
+  std::vector<std::byte> bytes(static_cast<std::size_t>(record_size()));
+  if (!files::read_all(descriptor_, bytes, index * record_size())) fail(path_, "read");
+  ArchiveReader record(bytes);
+  cases::CouetteFrame frame;
+  frame.step = record.get<std::int64_t>();
+  frame.time = record.get<double>();
+  frame.offset = record.get<double>();
+  frame.box = record.get<std::array<double, 2>>();
+  for (auto* values : {&frame.position, &frame.momentum}) {
+    values->resize(static_cast<std::size_t>(2 * particles_));
+    for (double& value : *values) value = record.get<double>();
+  }
+  return frame;
+}
+
+std::vector<cases::CouetteFrame> FrameSpool::read_all() const {
+  std::vector<cases::CouetteFrame> frames;
+  frames.reserve(static_cast<std::size_t>(count_));
+  for (std::int64_t i = 0; i < count_; ++i) frames.push_back(read(i));
+  return frames;
+}
+
+}  // namespace lucy::files

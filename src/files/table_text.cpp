@@ -1,0 +1,277 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/files/table_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+namespace lucy::files {
+
+namespace {
+
+using cases::ComparedCell;
+using cases::Comparison;
+using cases::Standing;
+using cases::TableRow;
+
+constexpr int most_decimals = 15;  // of a double near one
+
+/// Power of ten of the first digit, after rounding to so many digits.
+int leading_power(double value, int significant_digits) {
+  const std::string text = fmt::format("{:.{}e}", value, significant_digits - 1);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string not_finite(double value) { return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"; }
+
+/// Columns of text, each as wide as its widest cell; the first `left_aligned` ones and the last start at the left.
+class TextTable {
+ public:
+  TextTable(std::vector<std::string> header, std::size_t left_aligned) : left_aligned_(left_aligned) {
+    add(std::move(header));
+  }
+  void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
+
+  std::vector<std::string> lines() const {
+    std::vector<std::size_t> width(lines_.front().size(), 0);
+    for (const auto& cells : lines_)
+      for (std::size_t i = 0; i < cells.size(); ++i) width[i] = std::max(width[i], cells[i].size());
+    std::vector<std::string> result;
+    for (const auto& cells : lines_) {
+      std::string line;
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i > 0) line += "  ";
+        const bool left = i < left_aligned_ || i + 1 == cells.size();
+        line += left ? fmt::format("{:<{}}", cells[i], width[i]) : fmt::format("{:>{}}", cells[i], width[i]);
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      result.push_back(std::move(line));
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> lines_;
+  std::size_t left_aligned_;
+};
+
+/// The largest of N independent exponentially distributed energies (two dimensions) carries this part on average.
+double expected_largest_share(std::int64_t particles) {
+  const auto count = static_cast<double>(std::max<std::int64_t>(particles, 2));
+  return (std::log(count) + std::numbers::egamma) / count;
+}
+
+std::string state_text(std::int64_t particles, double energy_per_particle, double strain_rate) {
+  return fmt::format("N = {}, E/N = {}, rate {}", particles, format_plain(energy_per_particle),
+                     format_plain(strain_rate));
+}
+
+std::string published_text(const ComparedCell& cell) {
+  if (!(cell.last_digit > 0.0)) return format_plain(cell.published);
+  return fixed(cell.published,
+               std::clamp(static_cast<int>(std::ceil(-std::log10(cell.last_digit) - 1e-9)), 0, most_decimals));
+}
+
+/// Lines of at most 120 columns; all but the first start with blanks as wide as `prefix`.
+std::string wrapped(const std::string& prefix, std::string_view text) {
+  constexpr std::size_t columns = 120;
+  std::string result = prefix;
+  while (prefix.size() + text.size() > columns) {
+    std::size_t end = text.rfind(' ', columns - prefix.size());
+    if (end == std::string_view::npos) end = std::min(text.find(' '), text.size());
+    result += fmt::format("{}\n{:{}}", text.substr(0, end), "", prefix.size());
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return result + std::string(text) + '\n';
+}
+
+/// Reasons of misprints, numbered in the order of their first appearance.
+class Footnotes {
+ public:
+  std::size_t number(const std::string& text) {
+    const auto found = std::find(texts_.begin(), texts_.end(), text);
+    if (found != texts_.end()) return static_cast<std::size_t>(found - texts_.begin()) + 1;
+    texts_.push_back(text);
+    return texts_.size();
+  }
+  const std::vector<std::string>& texts() const { return texts_; }
+
+ private:
+  std::vector<std::string> texts_;
+};
+
+std::string remark(const ComparedCell& cell, Footnotes& footnotes) {
+  switch (cell.standing) {
+    case Standing::judged:
+      return std::abs(cell.difference) > 4.0 ? "DISAGREES" : "";
+    case Standing::read_differently:
+      return std::abs(cell.difference) > 4.0 ? "as it should read, DISAGREES" : "as it should read";
+    case Standing::misprint:
+      return fmt::format("as printed, a misprint [{}]: not judged", footnotes.number(cell.why));
+    case Standing::instability_region:
+      return "not judged";
+    case Standing::no_error:
+      return "no error bar: not judged";
+  }
+  return "";
+}
+
+int count_standing(const Comparison& comparison, Standing standing) {
+  int count = 0;
+  for (const auto& row : comparison.rows)
+    count += static_cast<int>(std::ranges::count(row.cells, standing, &ComparedCell::standing));
+  return count;
+}
+
+std::string verdict_text(const Comparison& comparison) {
+  switch (comparison.verdict) {
+    case cases::Verdict::agree:
+      return "agree: no judged cell is beyond 4 combined standard errors.";
+    case cases::Verdict::disagree:
+      return fmt::format("disagree: {} of {} judged cells beyond 4 combined standard errors.", comparison.beyond[2],
+                         comparison.judged);
+    case cases::Verdict::nothing_to_judge:
+      return "none: there is no cell that can be judged.";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string format_plain(double value, int significant_digits) {
+  if (!std::isfinite(value)) return not_finite(value);
+  if (value == 0.0) return "0";
+  const int decimals = significant_digits - 1 - leading_power(value, significant_digits);
+  std::string text = fixed(value, std::max(decimals, 0));
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+  }
+  return text;
+}
+
+std::string format_with_error(double value, double error) {
+  if (!std::isfinite(value)) return not_finite(value);
+  if (!std::isfinite(error)) return format_plain(value, 4) + "(nan)";
+  if (error <= 0.0) return format_plain(value) + "(0)";
+  const int power = leading_power(error, 2);
+  const int decimals = 1 - power;
+  if (decimals > most_decimals) return fixed(value, most_decimals) + "(0)";
+  if (power < 0) {
+    const std::string digits = fmt::format("{:.0f}", error * std::pow(10.0, decimals));
+    return fmt::format("{}({})", fixed(value, decimals), digits);
+  }
+  if (power == 0) return fmt::format("{}({:.1f})", fixed(value, 1), error);
+  const double unit = std::pow(10.0, power - 1);
+  return fmt::format("{}({:.0f})", fixed(std::round(value / unit) * unit, 0), std::round(error / unit) * unit);
+}
+
+std::string format_table(std::span<const TableRow> rows) {
+  using cases::quantity;
+  const auto share_of = [](const TableRow& row) { return row.estimates[quantity("largest_kinetic_share")].value; };
+  const auto notable = [&](const TableRow& row) { return share_of(row) > 4.0 * expected_largest_share(row.particles); };
+  const bool with_share = std::ranges::any_of(rows, notable);
+
+  std::vector<std::string> header = {"N",       "E/N",       "rate",          "kT",    "Pxy kinetic",
+                                     "Pxy pot", "viscosity", "normal stress", "status"};
+  if (with_share) header.insert(header.end() - 1, "share");
+  TextTable table(header, 0);
+  for (const TableRow& row : rows) {
+    std::vector<std::string> cells = {fmt::format("{}", row.particles), format_plain(row.energy_per_particle),
+                                      format_plain(row.strain_rate)};
+    for (const std::size_t place : {quantity("kinetic_temperature"), quantity("pxy_kinetic"), quantity("pxy_potential"),
+                                    quantity("viscosity"), quantity("normal_stress")})
+      cells.push_back(format_with_error(row.estimates[place].value, row.estimates[place].error));
+    if (with_share) cells.push_back(notable(row) ? format_plain(share_of(row), 2) : "");
+    cells.emplace_back(cases::status_name(row.status));
+    table.add(std::move(cells));
+  }
+
+  std::string text;
+  const auto lines = table.lines();
+  const std::size_t width = std::ranges::max(lines, {}, &std::string::size).size();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += lines[i] + '\n';
+    if (i == 0) text += std::string(width, '-') + '\n';
+  }
+  text +=
+      "\nIn parentheses one standard error, in units of the last digits: blocking of each replica's series, pooled "
+      "over\n"
+      "replicas; with Student's factor where there are fewer than ten degrees of freedom.\n";
+  const auto any = [&](cases::RowStatus status) {
+    return std::ranges::any_of(rows, [&](const TableRow& row) { return row.status == status; });
+  };
+  if (with_share)
+    text +=
+        "share: the part of the kinetic energy that one particle carries, where it stands out; averages of such rows\n"
+        "depend on the length of the run.\n";
+  if (any(cases::RowStatus::too_short))
+    text += "short: too short for an error bar, or for the relative error that was asked for.\n";
+  for (const TableRow& row : rows)
+    if (row.status == cases::RowStatus::failed)
+      text += fmt::format("failed: {}{}{}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate),
+                          row.failure.empty() ? "" : ": ", row.failure);
+  return text;
+}
+
+std::string format_comparison(const Comparison& comparison) {
+  std::string text = fmt::format("Ours beside {}: {}\n", comparison.name, comparison.source);
+  TextTable table({"", "ours", "published", "+-", "difference", ""}, 1);
+  Footnotes footnotes;
+  for (const auto& row : comparison.rows)
+    for (const ComparedCell& cell : row.cells)
+      table.add(
+          {fmt::format("  {}", cases::compared_quantities[cell.quantity]), format_with_error(cell.ours, cell.our_error),
+           published_text(cell), format_plain(cell.published_error, 2),
+           std::isnan(cell.difference) ? "nan" : fmt::format("{:+.1f}", cell.difference), remark(cell, footnotes)});
+  const auto lines = table.lines();
+  std::size_t next = 1;
+  if (!comparison.rows.empty()) text += lines.front() + '\n';
+  for (const auto& row : comparison.rows) {
+    text += fmt::format("{}; total time ours {}, published {}{}\n",
+                        state_text(row.particles, row.energy_per_particle, row.strain_rate), format_plain(row.our_time),
+                        format_plain(row.published_time), row.instability_region ? "; instability region" : "");
+    for (std::size_t i = 0; i < row.cells.size(); ++i) text += lines[next++] + '\n';
+  }
+
+  if (!comparison.only_ours.empty()) text += "\nOnly in our table:\n";
+  for (const auto& row : comparison.only_ours)
+    text += fmt::format("  {}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate));
+  if (!comparison.only_published.empty()) text += "\nOnly in the published table:\n";
+  for (const auto& row : comparison.only_published)
+    text += fmt::format("  {}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate));
+  if (!footnotes.texts().empty()) text += '\n';
+  for (const auto& footnote : footnotes.texts())
+    text += wrapped(fmt::format("[{}] ", footnotes.number(footnote)), footnote);
+
+  text +=
+      "\ndifference: (ours - published) over the combined standard error. +- is the standard error of the published\n"
+      "value: its own where it is given, else one unit of the last printed digit over sqrt(12), and in quadrature our\n"
+      "error times sqrt(our total time / theirs). The viscosity follows from the two printed parts of P_xy.\n\n";
+  text += fmt::format("{} cells judged, {} of them printed: chi squared {:.1f} for {}.", comparison.judged,
+                      comparison.independent, comparison.chi_squared, comparison.independent);
+  if (comparison.judged > 0)
+    text +=
+        fmt::format(" Beyond 2: {}, beyond 3: {}, beyond 4: {}.\nLargest difference {:.1f}: {}.", comparison.beyond[0],
+                    comparison.beyond[1], comparison.beyond[2], comparison.largest, comparison.largest_where);
+  text += fmt::format(
+      "\nNot judged: {} misprinted, {} in the instability region (averages depend on the run length), {} without "
+      "an error bar.\n",
+      count_standing(comparison, Standing::misprint), count_standing(comparison, Standing::instability_region),
+      count_standing(comparison, Standing::no_error));
+  return text + fmt::format("Verdict: {}\n", verdict_text(comparison));
+}
+
+}  // namespace lucy::files

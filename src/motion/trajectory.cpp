@@ -1,0 +1,318 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/motion/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lucy/errors.hpp"
+#include "lucy/motion/velocity_verlet.hpp"
+
+namespace lucy::motion {
+
+namespace {
+
+// A list is made for about this much of a typical particle's path, in units of the range: longer lists have longer
+// rows, shorter ones are made more often (measured optimum, flat between 0.05 and 0.09).
+constexpr double typical_path = 0.065;
+// How far, in units of the range, a particle may stray from its straight line before the list expires.
+constexpr double slack_fraction = 0.015;
+// Accelerations may grow by this factor over the one step that a list must still last.
+constexpr double acceleration_margin = 1.5;
+// After a step whose worst error is this much below the tolerance, the next is tried with half as many substeps
+// (a fourth-order step twice as long errs 32 times as much).
+constexpr double ease_factor = 1.0 / 64.0;
+
+}  // namespace
+
+template <int D>
+std::array<const double*, D> Trajectory<D>::pointers(const space::Columns& columns, int first) {
+  std::array<const double*, D> result;
+  for (int d = 0; d < D; ++d) result[d] = columns[first + d];
+  return result;
+}
+
+template <int D>
+Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear,
+                          Integrator integrator, const Watch& watch, const Team& team)
+    : kernel_(kernel),
+      shear_(shear),
+      integrator_(integrator),
+      watch_(watch),
+      team_(team),
+      particles_(start.position.size()),
+      box_(start.lengths, shear.strain_rate),
+      list_(static_cast<std::int64_t>(start.position.size()), start.lengths),
+      number_(particles_),
+      now_{space::Columns(columns, list_.capacity()), {}},
+      next_{space::Columns(columns, list_.capacity()), {}},
+      sum_(columns, list_.capacity()),
+      force_(D, list_.capacity()) {
+  for (std::size_t i = 0; i < particles_; ++i) {
+    number_[i] = static_cast<std::int32_t>(i);
+    for (int d = 0; d < D; ++d) {
+      now_.columns[d][i] = start.position[i][d];
+      now_.columns[D + d][i] = start.momentum[i][d];
+    }
+  }
+  kinetic_ = measure::kinetic_sums<D>(pointers(now_.columns, D), pointers(force_, 0), now_.columns.slots(), team_);
+  renew_list(0.0);
+  evaluate(now_, 0.0, md::Wanted::everything);
+  if (!(shear_.target_kinetic_energy > 0.0)) shear_.target_kinetic_energy = kinetic_.kinetic_energy();
+  friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), 0.0);
+  conserved_ = shear_.thermostat == Thermostat::isokinetic ? shear_.target_kinetic_energy : energy();
+}
+
+template <int D>
+space::Box<D> Trajectory<D>::box() const {
+  space::Box<D> present = box_;
+  present.advance(list_age_);
+  return present;
+}
+
+template <int D>
+void Trajectory<D>::renew_list(double dt) {
+  box_.advance(list_age_);
+  list_age_ = 0.0;
+  for (std::size_t slot = 0; slot < number_.size(); ++slot) {
+    if (number_[slot] == pairs::nobody) continue;
+    space::Vector<D> position;
+    for (int d = 0; d < D; ++d) position[d] = now_.columns[d][slot];
+    box_.wrap(position);
+    for (int d = 0; d < D; ++d) now_.columns[d][slot] = position[d];
+  }
+
+  const auto order = list_.arrange(pointers(now_.columns, 0), number_);
+  const auto take = [&](const double* from, double* to, auto empty) {
+    for (std::size_t slot = 0; slot < order.size(); ++slot) {
+      to[slot] = order[slot] == pairs::nobody ? empty(slot) : from[order[slot]];
+    }
+  };
+  const auto zero = [](std::size_t) { return 0.0; };
+  for (int d = 0; d < D; ++d) std::copy_n(force_[d], number_.size(), sum_[d]);
+  for (int c = 0; c < columns; ++c) {
+    if (c == 0) {
+      take(now_.columns[c], next_.columns[c], pairs::far_away);
+    } else {
+      take(now_.columns[c], next_.columns[c], zero);
+    }
+  }
+  for (int d = 0; d < D; ++d) take(sum_[d], force_[d], zero);
+  std::swap(now_.columns, next_.columns);
+  std::vector<std::int32_t> number(order.size());
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    number[slot] = order[slot] == pairs::nobody ? pairs::nobody : number_[static_cast<std::size_t>(order[slot])];
+  }
+  number_ = std::move(number);
+
+  const double range = kernel_.range();
+  const double fastest = std::sqrt(kinetic_.largest_square);
+  const double typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles_)));
+  list_acceleration_ = std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) +
+                       std::abs(friction_.zeta) * fastest;
+  pairs::ListReach reach;
+  reach.range = range;
+  reach.slack = slack_fraction * range;
+  reach.largest_speed = fastest;
+  reach.typical_speed = typical;
+  reach.lifetime = std::min({typical_path * range / typical,
+                             std::sqrt(2.0 * reach.slack / (acceleration_margin * list_acceleration_ + 1e-300)),
+                             list_.longest_lifetime(range, reach.slack, fastest, shear_.strain_rate)});
+  // Whole steps, so that no part of the lifetime is paid for and not used.
+  if (dt > 0.0 && reach.lifetime > dt) reach.lifetime = dt * std::floor(reach.lifetime / dt * (1.0 + 1e-12));
+  list_.build(pointers(now_.columns, 0), pointers(now_.columns, D), box_, reach, team_);
+  list_lifetime_ = reach.lifetime;
+}
+
+template <int D>
+bool Trajectory<D>::list_lasts(double dt) {
+  const auto lasts = [&] {
+    const double fastest = std::sqrt(kinetic_.largest_square);
+    const double acceleration = std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) +
+                                std::abs(friction_.zeta) * fastest;
+    list_acceleration_ = std::max(list_acceleration_, acceleration);
+    const double age = list_age_ + dt;
+    return age <= list_lifetime_ * (1.0 + 1e-9) &&
+           0.5 * acceleration_margin * list_acceleration_ * age * age <= slack_fraction * kernel_.range();
+  };
+  if (lasts()) return true;
+  renew_list(dt);
+  return lasts();
+}
+
+template <int D>
+void Trajectory<D>::evaluate(const Phase<sllod_numbers>& at, double age, md::Wanted wanted) {
+  std::array<double*, D> force;
+  for (int d = 0; d < D; ++d) force[d] = force_[d];
+  pair_totals_ = md::lucy_forces<D>(kernel_, list_, pairs::image_table(box_, age), pointers(at.columns, 0), force,
+                                    wanted, team_);
+  kinetic_ = measure::kinetic_sums<D>(pointers(at.columns, D), pointers(force_, 0), number_.size(), team_);
+  friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), at.numbers[nose_hoover_friction]);
+}
+
+template <int D>
+void Trajectory<D>::prepare(const Phase<sllod_numbers>& at, double age) {
+  evaluate(at, age, md::Wanted::shear_stress);
+}
+
+template <int D>
+bool Trajectory<D>::try_step(double dt) {
+  const double energy_before = energy();
+  const double input_before = now_.numbers[energy_input];
+  if (integrator_ == Integrator::runge_kutta_4) {
+    runge_kutta_4(*this, now_, list_age_, dt, number_.size(), next_, sum_, team_);
+    evaluate(next_, list_age_ + dt, md::Wanted::everything);
+  } else {
+    next_.numbers = now_.numbers;
+    velocity_verlet<D>(now_.columns, dt, number_.size(), next_.columns, force_,
+                       [&](const space::Columns&) { evaluate(next_, list_age_ + dt, md::Wanted::everything); });
+    kinetic_ = measure::kinetic_sums<D>(pointers(next_.columns, D), pointers(force_, 0), number_.size(), team_);
+  }
+  const double input = next_.numbers[energy_input] - input_before;
+  const double error = std::abs(energy() - energy_before - input) / static_cast<double>(particles_);
+  last_error_ = error;
+  if (!(error <= watch_.energy_tolerance)) {
+    evaluate(now_, list_age_, md::Wanted::everything);
+    return false;
+  }
+  std::swap(now_, next_);
+  time_ += dt;
+  list_age_ += dt;
+  report_.worst_energy_error = std::max(report_.worst_energy_error, error);
+  if (watch_.rescale) rescale();
+  return true;
+}
+
+template <int D>
+void Trajectory<D>::rescale() {
+  double target = 0.0;
+  if (shear_.thermostat == Thermostat::isoenergetic) {
+    target = conserved_ - pair_totals_.potential_energy;
+  } else if (shear_.thermostat == Thermostat::isokinetic) {
+    target = conserved_;
+  } else {
+    return;
+  }
+  const double kinetic = kinetic_.kinetic_energy();
+  const double square = target / kinetic;
+  const double factor = std::sqrt(square);
+  for (int d = 0; d < D; ++d) {
+    double* const p = now_.columns[D + d];
+    for (std::size_t slot = 0; slot < number_.size(); ++slot) p[slot] *= factor;
+  }
+  kinetic_.momentum_flux *= square;
+  kinetic_.force_power *= factor;
+  kinetic_.largest_square *= square;
+  friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), now_.numbers[nose_hoover_friction]);
+  report_.energy_rescaled += (target - kinetic) / static_cast<double>(particles_);
+}
+
+template <int D>
+void Trajectory<D>::advance(double dt) {
+  bool subdivided = halvings_ > 0;
+  std::int64_t pieces = std::int64_t{1} << halvings_;
+  double piece = dt / static_cast<double>(pieces);
+  double worst = 0.0;
+  while (pieces > 0) {
+    last_error_ = 0.0;
+    if (list_lasts(piece) && try_step(piece)) {
+      worst = std::max(worst, last_error_);
+      --pieces;
+      continue;
+    }
+    if (halvings_ == watch_.most_halvings) {
+      throw RunFailed(fmt::format(
+          "at time {:.6g} one step of {:.3g} still changes the energy by {:.3g} per particle (run.energy_tolerance = "
+          "{:.3g}; fastest particle: speed {:.3g}); a smaller run.step or a larger tolerance may help",
+          time_, piece, last_error_, watch_.energy_tolerance, std::sqrt(kinetic_.largest_square)));
+    }
+    ++halvings_;
+    subdivided = true;
+    pieces *= 2;
+    piece /= 2.0;
+  }
+  ++report_.steps;
+  if (subdivided) ++report_.subdivided_steps;
+  if (halvings_ > 0 && worst < ease_factor * watch_.energy_tolerance) --halvings_;
+}
+
+template <int D>
+std::vector<double> Trajectory<D>::by_particle(const space::Columns& columns, int first) const {
+  std::vector<double> values(particles_ * D);
+  for (std::size_t slot = 0; slot < number_.size(); ++slot) {
+    if (number_[slot] == pairs::nobody) continue;
+    for (int d = 0; d < D; ++d) values[static_cast<std::size_t>(number_[slot]) * D + d] = columns[first + d][slot];
+  }
+  return values;
+}
+
+template <int D>
+std::vector<double> Trajectory<D>::positions() const {
+  std::vector<double> values = by_particle(now_.columns, 0);
+  const space::Box<D> present = box();
+  for (std::size_t i = 0; i < particles_; ++i) {
+    space::Vector<D> position;
+    std::copy_n(values.data() + i * D, D, position.data());
+    present.wrap(position);
+    std::copy_n(position.data(), D, values.data() + i * D);
+  }
+  return values;
+}
+
+template <int D>
+void Trajectory<D>::save(ArchiveWriter& archive) const {
+  archive.put_sequence(number_);
+  for (int c = 0; c < columns; ++c) archive.put_sequence(std::span(now_.columns[c], number_.size()));
+  for (int d = 0; d < D; ++d) archive.put_sequence(std::span(force_[d], number_.size()));
+  archive.put(now_.numbers);
+  archive.put(box_.offset());
+  archive.put(time_);
+  archive.put(list_age_);
+  archive.put(halvings_);
+  archive.put(conserved_);
+  archive.put(shear_.target_kinetic_energy);
+  archive.put(pair_totals_.potential_energy);
+  for (int a = 0; a < D * D; ++a) archive.put(pair_totals_.virial.data()[a]);
+  for (int a = 0; a < D * D; ++a) archive.put(kinetic_.momentum_flux.data()[a]);
+  archive.put(kinetic_.force_power);
+  archive.put(kinetic_.largest_square);
+  archive.put(friction_);
+  archive.put(report_);
+}
+
+template <int D>
+void Trajectory<D>::load(ArchiveReader& archive) {
+  archive.get_sequence(number_);
+  if (number_.size() > now_.columns.slots()) throw RunFailed("a saved state holds more particles than the input");
+  std::vector<double> column;
+  const auto get_column = [&](double* to) {
+    archive.get_sequence(column);
+    if (column.size() != number_.size()) throw RunFailed("a saved state has columns of different lengths");
+    std::copy(column.begin(), column.end(), to);
+  };
+  for (int c = 0; c < columns; ++c) get_column(now_.columns[c]);
+  for (int d = 0; d < D; ++d) get_column(force_[d]);
+  now_.numbers = archive.get<std::array<double, sllod_numbers>>();
+  box_ = space::Box<D>(box_.lengths(), shear_.strain_rate, archive.get<double>());
+  time_ = archive.get<double>();
+  list_age_ = archive.get<double>();
+  halvings_ = archive.get<int>();
+  conserved_ = archive.get<double>();
+  shear_.target_kinetic_energy = archive.get<double>();
+  pair_totals_.potential_energy = archive.get<double>();
+  for (int a = 0; a < D * D; ++a) pair_totals_.virial.data()[a] = archive.get<double>();
+  for (int a = 0; a < D * D; ++a) kinetic_.momentum_flux.data()[a] = archive.get<double>();
+  kinetic_.force_power = archive.get<double>();
+  kinetic_.largest_square = archive.get<double>();
+  friction_ = archive.get<SllodFriction>();
+  report_ = archive.get<WatchReport>();
+  list_lifetime_ = 0.0;  // the list is not part of the state: renew_list() comes next
+}
+
+template class Trajectory<2>;
+template class Trajectory<3>;
+
+}  // namespace lucy::motion
