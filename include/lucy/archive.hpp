@@ -20,14 +20,12 @@ namespace lucy {
 class ArchiveWriter {
  public:
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  void put(const T& value) {
-    append(&value, sizeof value);
-  }
+  requires std::is_trivially_copyable_v<T>
+  void put(const T& value) { append(&value, sizeof value); }
 
   /// A sequence of trivially copyable values, preceded by its length.
   template <class Range>
-    requires requires(const Range& r) { std::span(r); }
+  requires requires(const Range& r) { std::span(r); }
   void put_sequence(const Range& range) {
     const std::span view(range);
     put(static_cast<std::uint64_t>(view.size()));
@@ -52,8 +50,7 @@ class ArchiveReader {
   explicit ArchiveReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  T get() {
+  requires std::is_trivially_copyable_v<T> T get() {
     T value;
     take(&value, sizeof value);
     return value;

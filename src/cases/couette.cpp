@@ -58,7 +58,7 @@ int sample_steps(const CouettePoint& point) {
 }
 
 void validate(const CouettePoint& point) {
-  const auto refuse = [](std::string message) { throw BadInput(std::move(message)); };
+  const auto refuse = [](const std::string& message) { throw BadInput(message); };
   if (point.dimension != 2) refuse(fmt::format("system.dimension = {} must be 2", point.dimension));
   if (point.reading != "md") refuse(fmt::format("system.reading = \"{}\" must be \"md\"", point.reading));
   if (point.kernel != "lucy") refuse(fmt::format("kernel.name = \"{}\" must be \"lucy\"", point.kernel));
@@ -85,8 +85,9 @@ void validate(const CouettePoint& point) {
   if (point.integrator == motion::Integrator::velocity_verlet &&
       (point.strain_rate != 0.0 ||
        (point.thermostat != motion::Thermostat::none && point.thermostat != motion::Thermostat::isoenergetic))) {
-    refuse("run.integrator = \"velocity-verlet\" needs shear.strain_rate = 0 and thermostat \"none\" or "
-           "\"isoenergetic\" (plain Newtonian motion); use \"rk4\"");
+    refuse(
+        "run.integrator = \"velocity-verlet\" needs shear.strain_rate = 0 and thermostat \"none\" or "
+        "\"isoenergetic\" (plain Newtonian motion); use \"rk4\"");
   }
   if (std::abs(point.strain_rate) * point.step > 0.5) {
     refuse(fmt::format("run.step = {} at shear.strain_rate = {} strains the box by more than 0.5 in one step",

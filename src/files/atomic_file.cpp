@@ -49,7 +49,7 @@ void synchronise_folder_of(const std::filesystem::path& path) {
 }  // namespace
 
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
-  return path.parent_path() / ("." + path.filename().string() + ".tmp");
+  return path.parent_path() / fmt::format(".{}.tmp", path.filename().string());
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::span<const std::byte>> pieces) {

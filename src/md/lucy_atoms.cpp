@@ -44,13 +44,13 @@ PairTotals<D> lucy_forces(const kernel::Lucy<D>& kernel, const pairs::ClusterLis
 }
 
 template PairTotals<1> lucy_forces<1>(const kernel::Lucy<1>&, const pairs::ClusterList<1>&, const pairs::ImageTable<1>&,
-                                   const std::array<const double*, 1>&, const std::array<double*, 1>&, Wanted,
-                                   const Team&);
+                                      const std::array<const double*, 1>&, const std::array<double*, 1>&, Wanted,
+                                      const Team&);
 template PairTotals<2> lucy_forces<2>(const kernel::Lucy<2>&, const pairs::ClusterList<2>&, const pairs::ImageTable<2>&,
-                                   const std::array<const double*, 2>&, const std::array<double*, 2>&, Wanted,
-                                   const Team&);
+                                      const std::array<const double*, 2>&, const std::array<double*, 2>&, Wanted,
+                                      const Team&);
 template PairTotals<3> lucy_forces<3>(const kernel::Lucy<3>&, const pairs::ClusterList<3>&, const pairs::ImageTable<3>&,
-                                   const std::array<const double*, 3>&, const std::array<double*, 3>&, Wanted,
-                                   const Team&);
+                                      const std::array<const double*, 3>&, const std::array<double*, 3>&, Wanted,
+                                      const Team&);
 
 }  // namespace lucy::md

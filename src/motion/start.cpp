@@ -42,7 +42,7 @@ double configuration_energy(const kernel::Lucy<2>& kernel, const std::array<std:
 }  // namespace
 
 std::optional<std::array<std::int64_t, 2>> near_square(std::int64_t particles) {
-  for (auto rows = static_cast<std::int64_t>(std::sqrt(static_cast<double>(particles)) + 0.5); rows >= 1; --rows) {
+  for (std::int64_t rows = std::llround(std::sqrt(static_cast<double>(particles))); rows >= 1; --rows) {
     if (particles % rows != 0) continue;
     const std::int64_t columns = particles / rows;
     if (2 * std::max(columns, rows) > 3 * std::min(columns, rows)) return std::nullopt;
@@ -71,15 +71,17 @@ void refuse_impossible_start(const kernel::Lucy<2>& kernel, std::int64_t particl
     while (below > 1 && !near_square(below)) --below;
     std::int64_t above = particles + 1;
     while (!near_square(above)) ++above;
-    throw BadInput(fmt::format("system.particles = {} does not fill a nearly square lattice (sides within a factor of "
-                               "1.5); the nearest numbers that do are {} and {}",
-                               particles, below, above));
+    throw BadInput(
+        fmt::format("system.particles = {} does not fill a nearly square lattice (sides within a factor of "
+                    "1.5); the nearest numbers that do are {} and {}",
+                    particles, below, above));
   }
   const double coldest = lattice_energy(kernel, density);
   if (!(energy_per_particle > coldest)) {
-    throw BadInput(fmt::format("system.energy_per_particle = {} must be above {:.5f}, the potential energy per "
-                               "particle of the start lattice",
-                               energy_per_particle, coldest));
+    throw BadInput(
+        fmt::format("system.energy_per_particle = {} must be above {:.5f}, the potential energy per "
+                    "particle of the start lattice",
+                    energy_per_particle, coldest));
   }
 }
 

@@ -111,8 +111,8 @@ void Trajectory<D>::renew_list(double dt) {
   const double range = kernel_.range();
   const double fastest = std::sqrt(kinetic_.largest_square);
   const double typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles_)));
-  list_acceleration_ = std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) +
-                       std::abs(friction_.zeta) * fastest;
+  list_acceleration_ =
+      std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) + std::abs(friction_.zeta) * fastest;
   pairs::ListReach reach;
   reach.range = range;
   reach.slack = slack_fraction * range;
@@ -131,8 +131,8 @@ template <int D>
 bool Trajectory<D>::list_lasts(double dt) {
   const auto lasts = [&] {
     const double fastest = std::sqrt(kinetic_.largest_square);
-    const double acceleration = std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) +
-                                std::abs(friction_.zeta) * fastest;
+    const double acceleration =
+        std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) + std::abs(friction_.zeta) * fastest;
     list_acceleration_ = std::max(list_acceleration_, acceleration);
     const double age = list_age_ + dt;
     return age <= list_lifetime_ * (1.0 + 1e-9) &&
@@ -147,8 +147,8 @@ template <int D>
 void Trajectory<D>::evaluate(const Phase<sllod_numbers>& at, double age, md::Wanted wanted) {
   std::array<double*, D> force;
   for (int d = 0; d < D; ++d) force[d] = force_[d];
-  pair_totals_ = md::lucy_forces<D>(kernel_, list_, pairs::image_table(box_, age), pointers(at.columns, 0), force,
-                                    wanted, team_);
+  pair_totals_ =
+      md::lucy_forces<D>(kernel_, list_, pairs::image_table(box_, age), pointers(at.columns, 0), force, wanted, team_);
   kinetic_ = measure::kinetic_sums<D>(pointers(at.columns, D), pointers(force_, 0), number_.size(), team_);
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), at.numbers[nose_hoover_friction]);
 }

@@ -134,8 +134,8 @@ std::span<const std::int32_t> ClusterList<D>::arrange(const std::array<const dou
 }
 
 template <int D>
-void ClusterList<D>::sweep(const std::array<const double*, D>& position,
-                           const std::array<const double*, D>& velocity, double lifetime) {
+void ClusterList<D>::sweep(const std::array<const double*, D>& position, const std::array<const double*, D>& velocity,
+                           double lifetime) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   extent_.resize(clusters());
   start_low_x_.resize(clusters());

@@ -28,8 +28,8 @@ void finish(CouetteRun& run, double duration) {
 }
 
 void expect_within_four_errors(const TableRow& row, const char* name, double published, double last_digit) {
-  const auto& estimate = row.estimates[static_cast<std::size_t>(
-      std::find(quantities.begin(), quantities.end(), name) - quantities.begin())];
+  const auto& estimate = row.estimates[static_cast<std::size_t>(std::find(quantities.begin(), quantities.end(), name) -
+                                                                quantities.begin())];
   // Print rounds to the last digit, and its run was about as long as ours or longer: our error stands for both.
   const double combined = std::hypot(std::sqrt(2.0) * estimate.error, last_digit / std::sqrt(12.0));
   EXPECT_NEAR(estimate.value, published, 4.0 * combined) << name;

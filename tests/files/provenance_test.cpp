@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lucy/files/provenance.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ TEST(Provenance, IsReadByOthers) {
   EXPECT_THAT(text, HasSubstr("\"flags\": \"-O3 -DX=\\\"y\\\"\""));
   for (const char* key : {"version", "commit", "compiler", "processor", "host", "threads", "generator", "started",
                           "finished", "resumed", "wall_seconds"})
-    EXPECT_THAT(text, HasSubstr("\"" + std::string(key) + "\": "));
+    EXPECT_THAT(text, HasSubstr(fmt::format("\"{}\": ", key)));
   if (std::system("command -v /usr/bin/python3 > /dev/null") != 0) GTEST_SKIP() << "there is no /usr/bin/python3";
   const std::string command = "/usr/bin/python3 -c 'import json, sys; json.load(open(sys.argv[1]))' '" +
                               (folder / "provenance.json").string() + "'";

@@ -108,14 +108,22 @@ TEST(Lucy, GivesTheTabulatedDensitiesOfRegularLattices) {
   struct Row {
     double range, least, greatest;
   };
-  for (const Row& row : {Row{1.5, .987654, 1.018519}, {2, .986328, 1.015625}, {3, .997299, 1.003086},
-                         {4, .999146, 1.000977}, {5, .999650, 1.000400}, {6, .999831, 1.000193}}) {
+  for (const Row& row : {Row{1.5, .987654, 1.018519},
+                         {2, .986328, 1.015625},
+                         {3, .997299, 1.003086},
+                         {4, .999146, 1.000977},
+                         {5, .999650, 1.000400},
+                         {6, .999831, 1.000193}}) {
     const auto density = chain_density(row.range);
     EXPECT_NEAR(density[0], row.least, 1.5e-6) << "1D, h = " << row.range;
     EXPECT_NEAR(density[1], row.greatest, 1.5e-6) << "1D, h = " << row.range;
   }
-  for (const Row& row : {Row{1.5, .989534, 1.023762}, {2, .984568, 1.020067}, {3, .998033, 1.002930},
-                         {4, .999366, 1.000633}, {5, .999835, 1.000277}, {6, .999914, 1.000090}}) {
+  for (const Row& row : {Row{1.5, .989534, 1.023762},
+                         {2, .984568, 1.020067},
+                         {3, .998033, 1.002930},
+                         {4, .999366, 1.000633},
+                         {5, .999835, 1.000277},
+                         {6, .999914, 1.000090}}) {
     const auto density = square_lattice_density(row.range);
     EXPECT_NEAR(density[0], row.least, 3e-6) << "2D, h = " << row.range;
     EXPECT_NEAR(density[1], row.greatest, 3e-6) << "2D, h = " << row.range;

@@ -45,11 +45,12 @@ template <int D>
 double energy_by_hand(const Crowd<D>& crowd) {
   const kernel::Lucy<D> kernel(range);
   double energy = 0.0;
-  for_all_pairs<D>(crowd.box, crowd.position, 0.0, range, [&](std::size_t, std::size_t, const auto& apart, const auto&) {
-    double squared = 0.0;
-    for (double component : apart) squared += component * component;
-    energy += kernel.weight(std::sqrt(squared));
-  });
+  for_all_pairs<D>(crowd.box, crowd.position, 0.0, range,
+                   [&](std::size_t, std::size_t, const auto& apart, const auto&) {
+                     double squared = 0.0;
+                     for (double component : apart) squared += component * component;
+                     energy += kernel.weight(std::sqrt(squared));
+                   });
   return energy;
 }
 
@@ -63,14 +64,15 @@ TEST(LucyAtoms, ForcesEqualASumOverImagesAfterManyStrainsOfEitherSign) {
     const auto ours = evaluate(crowd);
     std::vector<space::Vector<2>> force(63, {0.0, 0.0});
     Tensor<2> virial = Tensor<2>::Zero();
-    for_all_pairs<2>(box, crowd.position, 0.0, range, [&](std::size_t i, std::size_t j, const auto& apart, const auto&) {
-      const double slope = kernel.slope(std::hypot(apart[0], apart[1]));
-      for (int a = 0; a < 2; ++a) {
-        force[i][a] += slope * apart[a];
-        force[j][a] -= slope * apart[a];
-        for (int b = 0; b < 2; ++b) virial(a, b) += slope * apart[a] * apart[b];
-      }
-    });
+    for_all_pairs<2>(box, crowd.position, 0.0, range,
+                     [&](std::size_t i, std::size_t j, const auto& apart, const auto&) {
+                       const double slope = kernel.slope(std::hypot(apart[0], apart[1]));
+                       for (int a = 0; a < 2; ++a) {
+                         force[i][a] += slope * apart[a];
+                         force[j][a] -= slope * apart[a];
+                         for (int b = 0; b < 2; ++b) virial(a, b) += slope * apart[a] * apart[b];
+                       }
+                     });
     for (std::size_t i = 0; i < force.size(); ++i) {
       for (int d = 0; d < 2; ++d) ASSERT_NEAR(ours.force[i][d], force[i][d], 1e-13);
     }

@@ -32,8 +32,8 @@ Trajectory<2> flow(std::int64_t particles, double energy, double rate, Thermosta
   Watch watch;
   watch.rescale = options.rescale;
   watch.energy_tolerance = options.energy_tolerance;
-  return Trajectory<2>(lucy_kernel, lattice_start(lucy_kernel, particles, 1.0, energy, seed), shear,
-                       options.integrator, watch, Team(options.threads));
+  return Trajectory<2>(lucy_kernel, lattice_start(lucy_kernel, particles, 1.0, energy, seed), shear, options.integrator,
+                       watch, Team(options.threads));
 }
 
 double distance(const space::Box<2>& box, const double* a, const double* b) {

@@ -65,8 +65,7 @@ Outcome<D> by_list(Arranged<D>& arranged, const Crowd<D>& crowd, double age, dou
   for (int d = 0; d < D; ++d) pass.carried[d] = velocity[d];
   for (int c = 0; c < given; ++c) pass.given[c] = sums[c];
   Outcome<D> outcome{};
-  outcome.totals =
-      traverse<D>(arranged.list, image_table(crowd.box, age), range, pass, ProbeSum<D>{range}, team);
+  outcome.totals = traverse<D>(arranged.list, image_table(crowd.box, age), range, pass, ProbeSum<D>{range}, team);
   outcome.given.resize(crowd.position.size() * given);
   for (std::size_t slot = 0; slot < arranged.number.size(); ++slot) {
     if (arranged.number[slot] == nobody) continue;
@@ -87,21 +86,22 @@ Outcome<D> by_hand(const Crowd<D>& crowd, double age, double range) {
   };
   Outcome<D> outcome{};
   outcome.given.resize(position.size() * given);
-  for_all_pairs<D>(crowd.box, position, age, range, [&](std::size_t i, std::size_t j, const auto& apart, const auto& shift) {
-    double squared = 0.0;
-    for (double component : apart) squared += component * component;
-    const double weight = range - std::sqrt(squared);
-    for (std::size_t k : {i, j}) {
-      outcome.given[k * given] += 1.0;
-      outcome.given[k * given + 1] += weight;
-    }
-    for (int d = 0; d < D; ++d) {
-      const double difference = weight * (lab(i, d) - lab(j, d) - shift.velocity[d]);
-      outcome.given[i * given + 2 + d] += difference;
-      outcome.given[j * given + 2 + d] -= difference;
-    }
-    outcome.totals[0] += 1.0;
-  });
+  for_all_pairs<D>(crowd.box, position, age, range,
+                   [&](std::size_t i, std::size_t j, const auto& apart, const auto& shift) {
+                     double squared = 0.0;
+                     for (double component : apart) squared += component * component;
+                     const double weight = range - std::sqrt(squared);
+                     for (std::size_t k : {i, j}) {
+                       outcome.given[k * given] += 1.0;
+                       outcome.given[k * given + 1] += weight;
+                     }
+                     for (int d = 0; d < D; ++d) {
+                       const double difference = weight * (lab(i, d) - lab(j, d) - shift.velocity[d]);
+                       outcome.given[i * given + 2 + d] += difference;
+                       outcome.given[j * given + 2 + d] -= difference;
+                     }
+                     outcome.totals[0] += 1.0;
+                   });
   return outcome;
 }
 

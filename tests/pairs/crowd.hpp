@@ -4,8 +4,8 @@
 // Test particles in a sheared box, and sums over all their pairs and images the slow way.
 #pragma once
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>

@@ -79,7 +79,7 @@ struct CouetteRecord {
   double worst_energy_error = 0;  ///< largest |dE|/N of one accepted step before rescaling (dE minus work and heat)
   std::int64_t steps = 0;         ///< accepted steps, equilibration included
   std::int64_t subdivided_steps = 0;
-  double energy_rescaled = 0;     ///< sum over steps of the energy per particle that momentum rescaling put back (signed)
+  double energy_rescaled = 0;  ///< sum over steps of the energy per particle that momentum rescaling put back (signed)
 };
 
 /// A configuration for people to look at: positions wrapped into the box, peculiar momenta, by particle number.

@@ -40,8 +40,8 @@ inline constexpr std::size_t sllod_numbers = 2;
 
 struct SllodFriction {
   double zeta = 0.0;
-  double zeta_rate = 0.0;   ///< of Nose-Hoover
-  double energy_rate = 0.0; ///< dE/dt
+  double zeta_rate = 0.0;    ///< of Nose-Hoover
+  double energy_rate = 0.0;  ///< dE/dt
 };
 
 /// `virial_xy`: sum_{i<j} x_ij F_y,ij. `carried_zeta`: the Nose-Hoover variable.
@@ -60,8 +60,8 @@ SllodFriction sllod_friction(const Shear& shear, const measure::KineticSums<D>& 
       break;
     case Thermostat::nose_hoover:
       friction.zeta = carried_zeta;
-      friction.zeta_rate = (0.5 * twice_kinetic / shear.target_kinetic_energy - 1.0) /
-                           (shear.relaxation_time * shear.relaxation_time);
+      friction.zeta_rate =
+          (0.5 * twice_kinetic / shear.target_kinetic_energy - 1.0) / (shear.relaxation_time * shear.relaxation_time);
       break;
     case Thermostat::none:
       break;

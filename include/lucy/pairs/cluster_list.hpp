@@ -114,7 +114,7 @@ class ClusterList {
   /// One block: its pencils' clusters, and their rows.
   struct Block {
     std::size_t first_cluster = 0;
-    std::size_t last_cluster = 0;         ///< one past
+    std::size_t last_cluster = 0;            ///< one past
     std::vector<std::uint32_t> cluster_end;  ///< per cluster of the block, where its rows end in `entries`
     std::vector<RowEntry> entries;
   };
@@ -162,17 +162,17 @@ class ClusterList {
 
   std::int64_t particles_;
   space::Vector<D> lengths_;
-  std::array<int, D> pencils_{};            // number of pencils in y, z; entry 0 is 1
+  std::array<int, D> pencils_{};  // number of pencils in y, z; entry 0 is 1
   std::size_t capacity_ = 0;
-  std::vector<std::size_t> pencil_begin_;   // first cluster of each pencil, and the end
+  std::vector<std::size_t> pencil_begin_;  // first cluster of each pencil, and the end
   std::vector<std::int32_t> order_;
   std::vector<std::uint8_t> members_;
-  std::vector<Extent> extent_;              // per cluster
-  std::vector<Extent> pencil_extent_;       // per pencil
-  std::vector<double> start_high_x_;        // per cluster: largest x at the start; ascends within a pencil
+  std::vector<Extent> extent_;         // per cluster
+  std::vector<Extent> pencil_extent_;  // per pencil
+  std::vector<double> start_high_x_;   // per cluster: largest x at the start; ascends within a pencil
   std::vector<double> start_low_x_;
   std::vector<Block> blocks_;
-  std::vector<std::uint32_t> cell_count_;   // scratch of arrange()
+  std::vector<std::uint32_t> cell_count_;  // scratch of arrange()
   std::vector<std::int32_t> sorted_;
 };
 

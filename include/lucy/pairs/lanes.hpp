@@ -19,7 +19,6 @@ using LaneMask = Lanes::mask_type;
 inline Lanes load(const double* from) { return Lanes(from, simd::vector_aligned); }
 inline void store(double* to, const Lanes& value) { value.copy_to(to, simd::vector_aligned); }
 
-
 /// Lane l of the result is lane (l + by) mod 8 of `value`.
 template <int by>
 Lanes rotate(const Lanes& value) {

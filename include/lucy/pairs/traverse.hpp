@@ -67,9 +67,9 @@ template <int D, int carried>
 /// The pairs of particle `slot` with the eight of `cluster`, an image of which is shifted by `shift`.
 template <int D, class Sum>
 [[gnu::always_inline]] inline void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum,
-                                                     const Lanes& range_squared, std::size_t slot,
-                                                     std::size_t cluster, const space::ImageShift<D>& shift,
-                                                     Given<Sum>& at_i, std::array<Lanes, Sum::totals>& totals) {
+                                                     const Lanes& range_squared, std::size_t slot, std::size_t cluster,
+                                                     const space::ImageShift<D>& shift, Given<Sum>& at_i,
+                                                     std::array<Lanes, Sum::totals>& totals) {
   const std::size_t at = cluster * lane_count;
   Pair<D, Sum::carried> pair;
   for (int d = 0; d < D; ++d) {
