@@ -1,0 +1,220 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lucy/build_record.hpp"
+#include "lucy/errors.hpp"
+#include "lucy/files/schema.hpp"
+#include "program/commands.hpp"
+
+namespace lucy::program {
+
+namespace {
+
+constexpr int done = 0;
+constexpr int failed = 1;
+constexpr int bad_usage = 2;
+
+constexpr std::string_view output_refused = "cannot write to standard output";
+
+constexpr std::string_view short_help =
+    "Usage: lucy COMMAND ...\n"
+    "\n"
+    "  lucy sweep INPUT [--out DIR] [--set key=value]...   run a table of shear viscosities\n"
+    "  lucy check INPUT [--set key=value]...               say what that would do and cost\n"
+    "  lucy compare TABLE --with NAME                      a table beside a published one\n"
+    "  lucy explain [KEY]                                  the keys of an input file\n"
+    "\n"
+    "A first one: lucy sweep inputs/quick.toml\n"
+    "More: lucy --help, lucy COMMAND --help\n";
+
+void say(std::string_view sentence) {
+  std::fflush(stdout);
+  fmt::print(stderr, "lucy: {}\n", sentence);
+}
+
+std::string version_text() {
+  const BuildRecord build = build_record();
+  return fmt::format("lucy {}\ncommit {}\ncompiler {} ({})\nflags {}", build.version, build.commit, build.compiler,
+                     build.build_type, build.flags);
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const auto* option : command.get_options())
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
+  const auto nearest = files::nearest_name(word, names);
+  return nearest ? fmt::format("; did you mean {}?", *nearest) : "";
+}
+
+/// One sentence on what is wrong with the command line.
+std::string usage_error(const CLI::App& program, const CLI::ParseError& error,
+                        const std::vector<std::string>& arguments) {
+  const auto chosen = program.get_subcommands();
+  const CLI::App& where = chosen.empty() ? program : *chosen.front();
+  const std::string name = chosen.empty() ? "lucy" : "lucy " + where.get_name();
+  const auto looks_like_option = [](std::string_view word) { return word.starts_with('-'); };
+  if (chosen.empty() && !looks_like_option(arguments.front()))
+    return fmt::format("there is no command '{}'{} (commands: {})", arguments.front(),
+                       suggestion(arguments.front(), command_names(program)), fmt::join(command_names(program), ", "));
+  // The first word that nothing accepted: an option by its looks, or one argument too many.
+  const auto extras = where.remaining();
+  const std::string word = chosen.empty() ? arguments.front() : extras.empty() ? "" : extras.front();
+  if (looks_like_option(word)) {
+    const std::string option = word.substr(0, word.find('='));
+    return fmt::format("{} has no option {}{} (see {} --help)", name, option, suggestion(option, option_names(where)),
+                       name);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    return fmt::format("{} does not expect the argument '{}' (see {} --help)", name, word, name);
+  std::string what = error.what();
+  if (const auto end = what.find('\n'); end != std::string::npos) what.resize(end);
+  return fmt::format("{} (see {} --help)", what, name);
+}
+
+/// Commands have the exit codes that the contract gives them; nothing thrown gets past here.
+int tell_errors(const std::function<int()>& command) {
+  try {
+    const int code = command();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      say(output_refused);
+      return failed;
+    }
+    return code;
+  } catch (const BadInput& refusal) {
+    say(refusal.what());
+    return bad_usage;
+  } catch (const std::bad_alloc&) {
+    say("there is not enough memory");
+    return failed;
+  } catch (const std::exception& failure) {
+    say(std::ferror(stdout) != 0 ? output_refused : failure.what());
+    return failed;
+  }
+}
+
+}  // namespace
+
+int run_program(int argument_count, const char* const* argument_values) {
+  std::vector<std::string> words(argument_values, argument_values + argument_count);
+  const std::vector<std::string> arguments(words.begin() + (words.empty() ? 0 : 1), words.end());
+  if (arguments.empty()) {
+    fmt::print(stderr, "{}", short_help);
+    return bad_usage;
+  }
+
+  CLI::App program(
+      "Lucy: molecular dynamics of the Lucy fluid out of equilibrium.\n"
+      "Shear viscosities with error bars, after Posch, Hoover and Kum, Phys. Rev. E 52, 1711 (1995).",
+      "lucy");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", version_text(), "Version, commit, compiler and its flags");
+  program.set_help_flag("-h,--help", "This text");
+  program.footer(
+      "\nExamples:\n"
+      "  lucy sweep inputs/quick.toml\n"
+      "  lucy compare runs/quick/table.csv --with posch1995_table2\n"
+      "  lucy explain run\n"
+      "\nExit codes: 0 done, 1 ran but failed (or a comparison disagreed), 2 bad input or usage.");
+
+  InputRequest request;
+  request.command_line = words;
+  std::string out;
+  std::string input;
+  const auto add_input = [&](CLI::App* command) {
+    command->add_option("INPUT", input, "Input file (TOML)")->required();
+    command->add_option("--set", request.overrides, "Set a key of the input file; beats the file; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    command->add_option("--out", out, "Directory of the results; default: runs/NAME for an input NAME.toml")
+        ->type_name("DIR");
+    command->set_help_flag("-h,--help", "This text");
+  };
+
+  auto* sweep_command = program.add_subcommand("sweep", "Run a sweep: one table of shear viscosities");
+  add_input(sweep_command);
+  sweep_command->footer(
+      "\nThe directory may be new, empty, or hold this same sweep, which then resumes. Ctrl-C stops at the next "
+      "sample; the\n"
+      "same command resumes, and ends with the same bits. So it does after a crash.\n"
+      "\nExamples:\n"
+      "  lucy sweep inputs/quick.toml\n"
+      "  lucy sweep inputs/quick.toml --set run.replicas=4 --set shear.strain_rate=[0.3,0.7] --out runs/mine\n"
+      "  lucy sweep inputs/posch1995_table2.toml --set run.step=0.005 --out runs/paper_step");
+
+  auto* check_command = program.add_subcommand("check", "Validate an input and predict its cost; run nothing");
+  add_input(check_command);
+  check_command->footer("\nExample:\n  lucy check inputs/posch1995_table1.toml --set run.replicas=8");
+
+  auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
+  std::string filter;
+  explain_command->add_option("KEY", filter, "A section (run) or a key (run.step); default: all of them");
+  explain_command->set_help_flag("-h,--help", "This text");
+  explain_command->footer("\nExamples:\n  lucy explain\n  lucy explain shear\n  lucy explain run.step");
+
+  auto* compare_command = program.add_subcommand("compare", "Lay a table beside a published one");
+  std::string table;
+  std::string published;
+  compare_command->add_option("TABLE", table, "table.csv of a sweep, or the directory that holds it")->required();
+  compare_command
+      ->add_option("--with", published,
+                   "Name of a published table (posch1995_table1, posch1995_table2), or a "
+                   "CSV file")
+      ->type_name("NAME")
+      ->required();
+  compare_command->set_help_flag("-h,--help", "This text");
+  compare_command->footer(
+      "\nExit code 0: every judged number agrees within 4 combined standard errors; 1: not; 2: bad input.\n"
+      "\nExamples:\n"
+      "  lucy compare runs/posch1995_table1/table.csv --with posch1995_table1\n"
+      "  lucy compare runs/mine --with runs/other/table.csv");
+
+  try {
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants it
+    program.parse(reversed);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return tell_errors([&] { return program.exit(asked) == 0 ? done : failed; });
+  } catch (const CLI::ParseError& error) {
+    say(usage_error(program, error, arguments));
+    return bad_usage;
+  }
+
+  return tell_errors([&] {
+    request.input = input;
+    if (!out.empty()) request.out = out;
+    for (const auto* command : {sweep_command, check_command})
+      if (out.empty() && command->count("--out") > 0) throw BadInput("--out is empty where a directory is expected");
+    if (sweep_command->parsed()) return sweep(request);
+    if (check_command->parsed()) return check(request);
+    if (explain_command->parsed()) return explain(filter);
+    return compare(table, published);
+  });
+}
+
+}  // namespace lucy::program
