@@ -108,7 +108,7 @@ std::string energy_note(const std::vector<PointResult>& results) {
       most == 0.0
           ? "nothing was rescaled"
           : fmt::format("rescaling put back {} over the run of the replica that needed most", format_plain(most, 2));
-  return fmt::format("Energy per particle: largest error of one step {}; {}.\nSteps subdivided: {} of {}.",
+  return fmt::format("Energy per particle: largest error of one step {};\n{}.\nSteps subdivided: {} of {}.",
                      format_plain(worst, 2), rescaled, subdivided, steps);
 }
 
@@ -127,14 +127,12 @@ std::vector<std::string> notes_on(const std::vector<cases::CouettePoint>& points
   return notes;
 }
 
-constexpr std::string_view failure_mark = "Point ";
-
 /// notes.txt: reasons of failures ("Point 3 failed: ..."), then the other notes as they are printed.
 std::string notes_file(const std::vector<PointResult>& results, const std::vector<std::string>& notes) {
   std::string text;
   for (std::size_t i = 0; i < results.size(); ++i)
     if (results[i].row.status == cases::RowStatus::failed)
-      text += fmt::format("{}{} failed: {}\n", failure_mark, i + 1, results[i].row.failure);
+      text += fmt::format("Point {} failed: {}\n", i + 1, results[i].row.failure);
   for (const auto& note : notes) text += note + '\n';
   return text;
 }
