@@ -29,6 +29,12 @@ std::uint64_t scramble(std::uint64_t z) {
 
 std::int64_t steps_in(double time, double step) { return std::llround(time / step); }
 
+double kinetic_energy(const motion::Start<2>& start) {
+  double sum = 0.0;
+  for (const auto& p : start.momentum) sum += 0.5 * (p[0] * p[0] + p[1] * p[1]);
+  return sum;
+}
+
 }  // namespace
 
 std::uint64_t replica_seed(const CouettePoint& point, int replica) {
@@ -65,11 +71,23 @@ void validate(const CouettePoint& point) {
   if (!(point.step > 0.0 && point.step <= 0.2)) {
     refuse(fmt::format("run.step = {} must be above 0 and at most 0.2", point.step));
   }
-  if (!(point.duration > 0.0)) refuse(fmt::format("run.duration = {} must be above 0", point.duration));
+  const auto above_zero = [&](const char* key, double value) {
+    if (!(value > 0.0) || !std::isfinite(value)) refuse(fmt::format("{} = {} must be above 0", key, value));
+  };
+  above_zero("run.duration", point.duration);
+  above_zero("system.density", point.density);
+  above_zero("kernel.range", point.range);
+  above_zero("run.energy_tolerance", point.energy_tolerance);
+  above_zero("shear.relaxation_time", point.relaxation_time);
+  if (point.kinetic_temperature) above_zero("system.kinetic_temperature", *point.kinetic_temperature);
+  if (!std::isfinite(point.strain_rate))
+    refuse(fmt::format("shear.strain_rate = {} must be finite", point.strain_rate));
+  if (!(point.equilibration >= 0.0) || !std::isfinite(point.equilibration)) {
+    refuse(fmt::format("run.equilibration = {} must be 0 or above", point.equilibration));
+  }
   if (point.particles < 4 || point.particles > 100'000'000) {
     refuse(fmt::format("system.particles = {} must be between 4 and 100000000", point.particles));
   }
-  if (!(point.density > 0.0)) refuse(fmt::format("system.density = {} must be above 0", point.density));
 
   const kernel::Lucy<2> kernel(point.range);
   const auto sites = motion::near_square(point.particles);
@@ -99,7 +117,13 @@ void validate(const CouettePoint& point) {
       refuse(fmt::format("{} = {} must be a whole number of steps of run.step = {}", key, interval, point.step));
     }
   };
-  if (point.sample_interval > 0.0) whole_steps("output.sample_interval", point.sample_interval);
+  if (point.sample_interval > 0.0) {
+    whole_steps("output.sample_interval", point.sample_interval);
+    if (point.sample_interval > point.duration) {
+      refuse(fmt::format("output.sample_interval = {} must be at most run.duration = {}", point.sample_interval,
+                         point.duration));
+    }
+  }
   if (point.frame_interval > 0.0) {
     whole_steps("output.frame_interval", point.frame_interval);
     if (point.sample_interval > 0.0 &&
@@ -120,6 +144,7 @@ struct CouetteRun::Implementation {
   }
 
   static Trajectory make(const CouettePoint& point, int replica, int threads) {
+    validate(point);
     const kernel::Lucy<2> kernel(point.range);
     const motion::Start<2> start = motion::lattice_start(kernel, point.particles, point.density,
                                                          point.energy_per_particle, replica_seed(point, replica));
@@ -129,6 +154,13 @@ struct CouetteRun::Implementation {
     shear.relaxation_time = point.relaxation_time;
     if (point.kinetic_temperature) {
       shear.target_kinetic_energy = *point.kinetic_temperature * static_cast<double>(point.particles - 1);
+    } else if (point.thermostat == motion::Thermostat::isokinetic ||
+               point.thermostat == motion::Thermostat::nose_hoover) {
+      // One temperature for all replicas, though their starts differ a little: that of the first.
+      shear.target_kinetic_energy =
+          replica == 0 ? kinetic_energy(start)
+                       : kinetic_energy(motion::lattice_start(kernel, point.particles, point.density,
+                                                              point.energy_per_particle, replica_seed(point, 0)));
     }
     motion::Watch watch;
     watch.energy_tolerance = point.energy_tolerance;
@@ -179,7 +211,11 @@ void CouetteRun::advance_one_sample() {
     const Sample present = self.observe();
     for (std::size_t q = 0; q < sum.size(); ++q) sum[q] += present[q];
   }
-  for (double& value : sum) value /= self.steps_per_sample;
+  for (double& value : sum) {
+    value /= self.steps_per_sample;
+    if (!std::isfinite(value))
+      throw RunFailed(fmt::format("at time {:.6g} a sum is not a number", self.trajectory.time()));
+  }
   if (self.done >= self.equilibration_intervals) self.record.samples.push_back(sum);
   ++self.done;
   const motion::WatchReport& report = self.trajectory.report();

@@ -111,7 +111,8 @@ std::string_view status_name(RowStatus status) {
 }
 
 TableRow summarize(const CouettePoint& point, double duration, std::span<const CouetteRecord> replicas) {
-  TableRow row = row_head(point, duration, static_cast<int>(replicas.size()));
+  // A duration below one step records one step.
+  TableRow row = row_head(point, std::max(duration, point.step), static_cast<int>(replicas.size()));
   const std::vector<std::size_t> cuts = equilibration_cuts(replicas);
   double discarded = 0.0;
   for (std::size_t r = 0; r < replicas.size(); ++r) {
@@ -139,6 +140,12 @@ TableRow summarize(const CouettePoint& point, double duration, std::span<const C
   row.estimates[quantity("normal_stress")] = statistics::pooled_mean(
       series_of(replicas, cuts, [rate](const Sample& sample) { return stress_difference(sample) / (rate * rate); }));
   if (!reached(point.target_relative_error, estimate)) row.status = RowStatus::too_short;
+  if (point.thermostat == motion::Thermostat::none) {
+    // The work of the flow stays in: the fluid heats up for ever, and no average has an error bar.
+    for (Estimate& each : row.estimates) each.error = std::numeric_limits<double>::quiet_NaN();
+    row.effective_samples = std::numeric_limits<double>::quiet_NaN();
+    row.status = RowStatus::too_short;
+  }
   return row;
 }
 

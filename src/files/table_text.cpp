@@ -218,7 +218,10 @@ std::string format_table(std::span<const TableRow> rows) {
         "share: the part of the kinetic energy that one particle carries, where it stands out; averages of such rows\n"
         "depend on the length of the run.\n";
   if (any(cases::RowStatus::too_short))
-    text += "short: too short for an error bar, or for the relative error that was asked for.\n";
+    text +=
+        "short: too short for an error bar, or for the relative error that was asked for; or sheared without a "
+        "thermostat,\n"
+        "which never becomes steady.\n";
   for (const TableRow& row : rows)
     if (row.status == cases::RowStatus::failed)
       text += fmt::format("failed: {}{}{}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate),

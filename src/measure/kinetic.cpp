@@ -3,6 +3,7 @@
 #include "lucy/measure/kinetic.hpp"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "lucy/pairs/lanes.hpp"
@@ -52,10 +53,12 @@ KineticSums<D> kinetic_sums(const std::array<const double*, D>& momentum, const 
                             std::size_t slots, const Team& team) {
   const std::size_t parts = (slots + part_slots - 1) / part_slots;
   if (parts <= 1) return sum_part<D>(momentum, force, 0, slots);
-  std::vector<KineticSums<D>> partial(parts);
+  thread_local std::vector<KineticSums<D>> kept;  // from call to call: no allocation per step
+  kept.resize(parts);
+  const std::span<KineticSums<D>> partial(kept);  // the other threads' own are empty
   team.share(static_cast<std::ptrdiff_t>(parts), [&](std::ptrdiff_t part) {
     const std::size_t begin = static_cast<std::size_t>(part) * part_slots;
-    partial[part] = sum_part<D>(momentum, force, begin, std::min(begin + part_slots, slots));
+    partial[static_cast<std::size_t>(part)] = sum_part<D>(momentum, force, begin, std::min(begin + part_slots, slots));
   });
   KineticSums<D> total;
   for (const auto& part : partial) {

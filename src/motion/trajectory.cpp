@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "lucy/errors.hpp"
@@ -25,6 +26,8 @@ constexpr double acceleration_margin = 1.5;
 // After a step whose worst error is this much below the tolerance, the next is tried with half as many substeps
 // (a fourth-order step twice as long errs 32 times as much).
 constexpr double ease_factor = 1.0 / 64.0;
+// Velocity Verlet has gone astray when the energy per particle is this far from its start.
+constexpr double verlet_band = 0.01;
 
 }  // namespace
 
@@ -58,10 +61,17 @@ Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, 
       now_.columns[D + d][i] = start.momentum[i][d];
     }
   }
-  kinetic_ = measure::kinetic_sums<D>(pointers(now_.columns, D), pointers(force_, 0), now_.columns.slots(), team_);
+  const auto sum_momenta = [&] {
+    kinetic_ = measure::kinetic_sums<D>(pointers(now_.columns, D), pointers(force_, 0), now_.columns.slots(), team_);
+  };
+  sum_momenta();
+  if (!(shear_.target_kinetic_energy > 0.0)) shear_.target_kinetic_energy = kinetic_.kinetic_energy();
+  if (shear_.thermostat == Thermostat::isokinetic) {
+    scale_momenta(std::sqrt(shear_.target_kinetic_energy / kinetic_.kinetic_energy()));
+    sum_momenta();
+  }
   renew_list(0.0);
   evaluate(now_, 0.0, md::Wanted::everything);
-  if (!(shear_.target_kinetic_energy > 0.0)) shear_.target_kinetic_energy = kinetic_.kinetic_energy();
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), 0.0);
   conserved_ = shear_.thermostat == Thermostat::isokinetic ? shear_.target_kinetic_energy : energy();
 }
@@ -102,27 +112,29 @@ void Trajectory<D>::renew_list(double dt) {
   }
   for (int d = 0; d < D; ++d) take(sum_[d], force_[d], zero);
   std::swap(now_.columns, next_.columns);
-  std::vector<std::int32_t> number(order.size());
+  number_before_.swap(number_);
+  number_.resize(order.size());
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
-    number[slot] = order[slot] == pairs::nobody ? pairs::nobody : number_[static_cast<std::size_t>(order[slot])];
+    const std::int32_t from = order[slot];
+    number_[slot] = from == pairs::nobody ? pairs::nobody : number_before_[static_cast<std::size_t>(from)];
   }
-  number_ = std::move(number);
 
   const double range = kernel_.range();
   const double fastest = std::sqrt(kinetic_.largest_square);
   const double typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles_)));
-  list_acceleration_ =
-      std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) + std::abs(friction_.zeta) * fastest;
+  list_acceleration_ = largest_acceleration();
   pairs::ListReach reach;
   reach.range = range;
   reach.slack = slack_fraction * range;
   reach.largest_speed = fastest;
   reach.typical_speed = typical;
-  reach.lifetime = std::min({typical_path * range / typical,
-                             std::sqrt(2.0 * reach.slack / (acceleration_margin * list_acceleration_ + 1e-300)),
-                             list_.longest_lifetime(range, reach.slack, fastest, shear_.strain_rate)});
-  // Whole steps, so that no part of the lifetime is paid for and not used.
-  if (dt > 0.0 && reach.lifetime > dt) reach.lifetime = dt * std::floor(reach.lifetime / dt * (1.0 + 1e-12));
+  const double bound = std::min(std::sqrt(2.0 * reach.slack / (acceleration_margin * list_acceleration_ + 1e-300)),
+                                list_.longest_lifetime(range, reach.slack, fastest, shear_.strain_rate));
+  // Whole steps, so that no part of the lifetime is paid for and not used; at least one, where the bound allows it.
+  reach.lifetime = std::min(std::max(dt, typical_path * range / typical), bound);
+  if (dt > 0.0 && reach.lifetime > dt) {
+    reach.lifetime = std::min(bound, dt * std::floor(reach.lifetime / dt * (1.0 + 1e-12)));
+  }
   list_.build(pointers(now_.columns, 0), pointers(now_.columns, D), box_, reach, team_);
   list_lifetime_ = reach.lifetime;
 }
@@ -130,10 +142,7 @@ void Trajectory<D>::renew_list(double dt) {
 template <int D>
 bool Trajectory<D>::list_lasts(double dt) {
   const auto lasts = [&] {
-    const double fastest = std::sqrt(kinetic_.largest_square);
-    const double acceleration =
-        std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) + std::abs(friction_.zeta) * fastest;
-    list_acceleration_ = std::max(list_acceleration_, acceleration);
+    list_acceleration_ = std::max(list_acceleration_, largest_acceleration());
     const double age = list_age_ + dt;
     return age <= list_lifetime_ * (1.0 + 1e-9) &&
            0.5 * acceleration_margin * list_acceleration_ * age * age <= slack_fraction * kernel_.range();
@@ -171,43 +180,93 @@ bool Trajectory<D>::try_step(double dt) {
                        [&](const space::Columns&) { evaluate(next_, list_age_ + dt, md::Wanted::everything); });
     kinetic_ = measure::kinetic_sums<D>(pointers(next_.columns, D), pointers(force_, 0), number_.size(), team_);
   }
-  const double input = next_.numbers[energy_input] - input_before;
-  const double error = std::abs(energy() - energy_before - input) / static_cast<double>(particles_);
-  last_error_ = error;
-  if (!(error <= watch_.energy_tolerance)) {
-    evaluate(now_, list_age_, md::Wanted::everything);
-    return false;
+  const auto n = static_cast<double>(particles_);
+  last_error_ = std::abs(energy() - energy_before - (next_.numbers[energy_input] - input_before)) / n;
+  if (integrator_ == Integrator::velocity_verlet) {
+    // A symplectic step of fixed length errs to and fro in a narrow band: watch the band, and leave the step alone.
+    if (!(std::abs(energy() - conserved_) <= verlet_band * n)) {
+      throw RunFailed(
+          fmt::format("at time {:.6g} the energy has left a band of {} per particle about its start; use a smaller "
+                      "run.step than {}",
+                      time_, verlet_band, dt));
+    }
+  } else {
+    spent_ = rescales() && !(rescaling_target() > 0.0);
+    if (spent_ || !(last_error_ <= watch_.energy_tolerance)) {
+      evaluate(now_, list_age_, md::Wanted::everything);
+      return false;
+    }
   }
   std::swap(now_, next_);
   time_ += dt;
   list_age_ += dt;
-  report_.worst_energy_error = std::max(report_.worst_energy_error, error);
-  if (watch_.rescale) rescale();
+  report_.worst_energy_error = std::max(report_.worst_energy_error, last_error_);
+  if (rescales()) rescale();
   return true;
 }
 
 template <int D>
+double Trajectory<D>::largest_acceleration() const {
+  return std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) +
+         std::abs(friction_.zeta) * std::sqrt(kinetic_.largest_square);
+}
+
+template <int D>
+bool Trajectory<D>::rescales() const {
+  return watch_.rescale && integrator_ == Integrator::runge_kutta_4 &&
+         (shear_.thermostat == Thermostat::isoenergetic || shear_.thermostat == Thermostat::isokinetic);
+}
+
+template <int D>
+double Trajectory<D>::rescaling_target() const {
+  return shear_.thermostat == Thermostat::isokinetic ? conserved_ : conserved_ - pair_totals_.potential_energy;
+}
+
+template <int D>
+void Trajectory<D>::scale_momenta(double factor) {
+  const std::size_t slots = number_.size();
+  const auto chunks = static_cast<std::ptrdiff_t>((slots + chunk_slots - 1) / chunk_slots);
+  team_.share(chunks, [&](std::ptrdiff_t chunk) {
+    const std::size_t begin = static_cast<std::size_t>(chunk) * chunk_slots;
+    const std::size_t end = std::min(begin + chunk_slots, slots);
+    for (int d = 0; d < D; ++d) {
+      double* const p = now_.columns[D + d];
+      for (std::size_t slot = begin; slot < end; ++slot) p[slot] *= factor;
+    }
+  });
+}
+
+template <int D>
 void Trajectory<D>::rescale() {
-  double target = 0.0;
-  if (shear_.thermostat == Thermostat::isoenergetic) {
-    target = conserved_ - pair_totals_.potential_energy;
-  } else if (shear_.thermostat == Thermostat::isokinetic) {
-    target = conserved_;
-  } else {
-    return;
-  }
   const double kinetic = kinetic_.kinetic_energy();
-  const double square = target / kinetic;
+  const double square = rescaling_target() / kinetic;
   const double factor = std::sqrt(square);
-  for (int d = 0; d < D; ++d) {
-    double* const p = now_.columns[D + d];
-    for (std::size_t slot = 0; slot < number_.size(); ++slot) p[slot] *= factor;
-  }
+  scale_momenta(factor);
+  report_.energy_rescaled += (rescaling_target() - kinetic) / static_cast<double>(particles_);
   kinetic_.momentum_flux *= square;
   kinetic_.force_power *= factor;
   kinetic_.largest_square *= square;
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), now_.numbers[nose_hoover_friction]);
-  report_.energy_rescaled += (target - kinetic) / static_cast<double>(particles_);
+}
+
+template <int D>
+std::string Trajectory<D>::why_stuck(bool near, double piece) const {
+  const std::string when = fmt::format("at time {:.6g}, even in steps of {:.3g}", time_, piece);
+  if (!near) {
+    return fmt::format(
+        "{}, the fastest particle (speed {:.3g}) outruns its neighbour list: the box is too small for it", when,
+        std::sqrt(kinetic_.largest_square));
+  }
+  if (spent_ || !std::isfinite(last_error_)) {
+    return fmt::format(
+        "{}, the thermostat uses up the kinetic energy ({:.3g} per particle is left): at this energy and "
+        "strain rate there is no steady flow",
+        when, kinetic_.kinetic_energy() / static_cast<double>(particles_));
+  }
+  return fmt::format(
+      "{}, a step changes the energy by {:.3g} per particle, which is more than run.energy_tolerance = "
+      "{:.3g}; a smaller run.step or a larger tolerance may help",
+      when, last_error_, watch_.energy_tolerance);
 }
 
 template <int D>
@@ -217,18 +276,13 @@ void Trajectory<D>::advance(double dt) {
   double piece = dt / static_cast<double>(pieces);
   double worst = 0.0;
   while (pieces > 0) {
-    last_error_ = 0.0;
-    if (list_lasts(piece) && try_step(piece)) {
+    const bool near = list_lasts(piece);
+    if (near && try_step(piece)) {
       worst = std::max(worst, last_error_);
       --pieces;
       continue;
     }
-    if (halvings_ == watch_.most_halvings) {
-      throw RunFailed(fmt::format(
-          "at time {:.6g} one step of {:.3g} still changes the energy by {:.3g} per particle (run.energy_tolerance = "
-          "{:.3g}; fastest particle: speed {:.3g}); a smaller run.step or a larger tolerance may help",
-          time_, piece, last_error_, watch_.energy_tolerance, std::sqrt(kinetic_.largest_square)));
-    }
+    if (halvings_ == watch_.most_halvings) throw RunFailed(why_stuck(near, piece));
     ++halvings_;
     subdivided = true;
     pieces *= 2;
@@ -286,7 +340,14 @@ void Trajectory<D>::save(ArchiveWriter& archive) const {
 template <int D>
 void Trajectory<D>::load(ArchiveReader& archive) {
   archive.get_sequence(number_);
-  if (number_.size() > now_.columns.slots()) throw RunFailed("a saved state holds more particles than the input");
+  std::size_t there = 0;
+  for (const std::int32_t number : number_) {
+    if (number >= static_cast<std::int32_t>(particles_)) there = particles_ + 1;
+    if (number != pairs::nobody) ++there;
+  }
+  if (number_.size() > now_.columns.slots() || there != particles_) {
+    throw RunFailed("a saved state does not hold the particles of the input");
+  }
   std::vector<double> column;
   const auto get_column = [&](double* to) {
     archive.get_sequence(column);

@@ -218,7 +218,7 @@ void ClusterList<D>::fill_block(Block& block, const std::array<const double*, D>
   std::array<int, D> farthest_pencil{};
   for (int d = 1; d < D; ++d) farthest_pencil[d] = static_cast<int>(std::ceil(farthest * pencils_[d] / lengths_[d]));
 
-  std::vector<RowEntry> candidates;
+  std::vector<RowEntry>& candidates = block.candidates;
   block.entries.clear();
   block.cluster_end.clear();
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double fewest_effective_samples = 3.0;
+constexpr std::size_t fewest_replicas = 4;  // whose means alone give an error
 
 /// Running sums of the deviations from the grand mean, one list per replica: a block sum is one difference.
 using RunningSums = std::vector<std::vector<double>>;
@@ -35,7 +36,17 @@ double blocked_variance(const RunningSums& sums, std::size_t block, double sampl
 
 Blocking without_error(double mean) { return {0, not_a_number, not_a_number, mean, not_a_number, 0}; }
 
-/// The error of the grand mean from the means of replicas, each one block.
+// A long-run variance of zero would need a series that alternates exactly; that is no proof of a zero error, and the
+// callers refuse it.
+Blocking with_error(std::size_t block, double long_run_variance, double variance, double samples, double mean,
+                    int degrees_of_freedom) {
+  const double inefficiency = long_run_variance / variance;
+  const double effective_samples = std::min(samples, samples / inefficiency);
+  return {block, inefficiency, effective_samples, mean, std::sqrt(long_run_variance / samples), degrees_of_freedom};
+}
+
+/// The error of the grand mean from the means of replicas, each one block; means that agree by chance do not take it
+/// below what half a replica says.
 Blocking from_replica_means(const RunningSums& sums, double mean, double samples, double variance) {
   double squares = 0.0;
   std::size_t shortest = std::numeric_limits<std::size_t>::max();
@@ -44,9 +55,11 @@ Blocking from_replica_means(const RunningSums& sums, double mean, double samples
     shortest = std::min(shortest, sum.size() - 1);
   }
   const auto replicas = static_cast<double>(sums.size());
-  const double error = std::sqrt(squares * replicas / (replicas - 1.0)) / samples;
-  const double inefficiency = error * error * samples / variance;
-  return {shortest, inefficiency, samples / inefficiency, mean, error, static_cast<int>(sums.size()) - 1};
+  const double of_means = squares * replicas / ((replicas - 1.0) * samples);
+  const double of_halves = blocked_variance(sums, std::max<std::size_t>(1, shortest / 2), samples);
+  const double long_run_variance = std::max(of_means, of_halves);
+  if (!(long_run_variance > 0.0)) return without_error(mean);
+  return with_error(shortest, long_run_variance, variance, samples, mean, static_cast<int>(sums.size()) - 1);
 }
 
 }  // namespace
@@ -113,18 +126,14 @@ Blocking automatic_blocking(std::span<const std::span<const double>> replicas) {
     block = 2 * half;
     long_run_variance = corrected;
   }
-  Blocking result = without_error(mean);
-  // A long-run variance of zero would need a series that alternates exactly; that is no proof of a zero error.
   if (block > 0 && long_run_variance > 0.0) {
-    const double inefficiency = long_run_variance / variance;
     const double blocks = samples / static_cast<double>(block) - static_cast<double>(sums.size());
     const int degrees_of_freedom = std::max(1, static_cast<int>(0.75 * blocks));
-    result = {
-        block, inefficiency, samples / inefficiency, mean, std::sqrt(long_run_variance / samples), degrees_of_freedom};
-  } else if (sums.size() > 1) {
-    result = from_replica_means(sums, mean, samples, variance);
+    const Blocking result = with_error(block, long_run_variance, variance, samples, mean, degrees_of_freedom);
+    return result.effective_samples >= fewest_effective_samples ? result : without_error(mean);
   }
-  return result.effective_samples >= fewest_effective_samples ? result : without_error(mean);
+  // Fewer replica means would have to be judged by their own spread, and those that agree by chance would pass.
+  return sums.size() >= fewest_replicas ? from_replica_means(sums, mean, samples, variance) : without_error(mean);
 }
 
 }  // namespace lucy::statistics

@@ -110,6 +110,60 @@ TEST(Couette, ReplicasDifferAndRowsRepeat) {
   EXPECT_EQ(replica_seed(p, 0), replica_seed(other, 0));
 }
 
+TEST(Couette, EverySettingReachesTheMotion) {
+  const CouettePoint plain = point(100, 1.0, 0.5, 3.0);
+  const auto last_sample = [](CouettePoint p, auto change) {
+    p.equilibration = 0.0;
+    change(p);
+    CouetteRun run(p, 0);
+    finish(run, p.duration);
+    return run.record().samples.back();
+  };
+  const Sample base = last_sample(plain, [](auto&) {});
+  EXPECT_EQ(base, last_sample(plain, [](auto&) {}));
+  EXPECT_NE(base, last_sample(plain, [](auto& p) { p.thermostat = motion::Thermostat::none; }));
+  const Sample kept = last_sample(plain, [](auto& p) { p.thermostat = motion::Thermostat::isokinetic; });
+  EXPECT_NE(base, kept);
+  const auto warm = last_sample(plain, [](auto& p) {
+    p.thermostat = motion::Thermostat::isokinetic;
+    p.kinetic_temperature = 0.9;
+  });
+  EXPECT_NEAR(warm[1], 0.9, 1e-9);
+  const auto hoover = [](double tau) {
+    return [tau](auto& p) {
+      p.thermostat = motion::Thermostat::nose_hoover;
+      p.relaxation_time = tau;
+    };
+  };
+  EXPECT_NE(last_sample(plain, hoover(0.5)), last_sample(plain, hoover(2.0)));
+  EXPECT_NE(base, last_sample(plain, [](auto& p) { p.rescale = false; }));
+  EXPECT_NE(base, last_sample(plain, [](auto& p) { p.energy_tolerance = 1e-12; }));
+  EXPECT_NE(base, last_sample(plain, [](auto& p) { p.range = 2.5; }));
+  const auto thin = last_sample(plain, [](auto& p) { p.density = 0.5; });
+  EXPECT_LT(thin[5] + thin[7], 0.5 * (base[5] + base[7]));  // potential pressure
+}
+
+TEST(Couette, AllReplicasOfAnIsokineticPointHaveOneTemperature) {
+  CouettePoint p = point(100, 1.0, 0.5, 2.0);
+  p.thermostat = motion::Thermostat::isokinetic;
+  CouetteRun first(p, 0);
+  CouetteRun second(p, 1);
+  finish(first, p.duration);
+  finish(second, p.duration);
+  EXPECT_NEAR(first.record().samples.back()[1], second.record().samples.back()[1], 1e-9);
+}
+
+TEST(Couette, ShearWithoutAThermostatHasNoErrorBar) {
+  CouettePoint p = point(100, 1.0, 0.3, 100.0);
+  p.thermostat = motion::Thermostat::none;
+  CouetteRun run(p, 0);
+  finish(run, p.duration);
+  const TableRow row = summarize(p, p.duration, std::span(&run.record(), 1));
+  EXPECT_EQ(row.status, RowStatus::too_short);
+  for (const auto& estimate : row.estimates) EXPECT_TRUE(std::isnan(estimate.error));
+  EXPECT_GT(row.estimates[quantity("kinetic_temperature")].value, 1.0);  // it has heated up
+}
+
 TEST(Couette, RecordsTheWholeDurationAndNothingOfTheEquilibration) {
   CouettePoint p = point(64, 1.0, 0.3, 7.3);
   p.equilibration = 2.0;
@@ -183,6 +237,12 @@ TEST(Couette, RefusesWhatCannotBeRun) {
   expect_refusal(with([](auto& p) { p.range = 17.0; }), "kernel.range");
   expect_refusal(with([](auto& p) { p.strain_rate = 20.0; }), "shear.strain_rate");
   expect_refusal(with([](auto& p) { p.frame_interval = 0.123; }), "output.frame_interval");
+  expect_refusal(with([](auto& p) { p.sample_interval = 1000.0; }), "output.sample_interval");
+  expect_refusal(with([](auto& p) { p.equilibration = -1.0; }), "run.equilibration");
+  expect_refusal(with([](auto& p) { p.energy_tolerance = 0.0; }), "run.energy_tolerance");
+  expect_refusal(with([](auto& p) { p.kinetic_temperature = -0.5; }), "system.kinetic_temperature");
+  expect_refusal(with([](auto& p) { p.relaxation_time = 0.0; }), "shear.relaxation_time");
+  expect_refusal(with([](auto& p) { p.strain_rate = std::nan(""); }), "shear.strain_rate");
   expect_refusal(with([](auto& p) { p.integrator = motion::Integrator::velocity_verlet; }), "run.integrator");
 }
 

@@ -226,6 +226,27 @@ TEST(ClusterList, GivesTheSameBitsForEveryNumberOfThreads) {
   }
 }
 
+// Even blocks are summed at the same time, then odd ones: a row may write to its own block and the next, no further.
+TEST(ClusterList, RowsOfABlockReachNoFurtherThanTheNextBlock) {
+  const space::Box<2> box({64.0, 64.0}, 0.1, 21.0);
+  auto crowd = Crowd<2>::random(4096, box, 0.7, 18);
+  for (double fastest : {0.0, 10.0}) {
+    if (fastest > 0.0) crowd.velocity[5] = {1.0, fastest};
+    Arranged<2> arranged(crowd);
+    arranged.build(crowd, 3.0, 0.2, 0.04);
+    const auto blocks = arranged.list.blocks();
+    ASSERT_EQ(blocks.size() % 2, 0U);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto& next = blocks[(b + 1) % blocks.size()];
+      for (const RowEntry entry : blocks[b].entries) {
+        const bool own = entry.cluster() >= blocks[b].first_cluster && entry.cluster() < blocks[b].last_cluster;
+        const bool above = entry.cluster() >= next.first_cluster && entry.cluster() < next.last_cluster;
+        ASSERT_TRUE(own || above) << "block " << b;
+      }
+    }
+  }
+}
+
 TEST(ClusterList, ArrangingWhatIsArrangedChangesNothing) {
   const space::Box<2> box({20.0, 20.0});
   const auto crowd = Crowd<2>::random(399, box, 0.7, 19);

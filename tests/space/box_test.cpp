@@ -73,6 +73,12 @@ TEST(Box, WrappingAJustNegativeCoordinateStaysBelowTheLength) {
   EXPECT_LT(position[1], 8.0);
   EXPECT_GE(position[0], 0.0);
   EXPECT_GE(position[1], 0.0);
+
+  // It stays where it was, whatever the offset of the image that it might have come from.
+  const Box<2> sheared({10.0, 8.0}, 0.2, 2.5);
+  position = {5.0, -1e-18};
+  sheared.wrap(position);
+  EXPECT_EQ(position, (Vector<2>{5.0, 0.0}));
 }
 
 TEST(Box, AdvancingFoldsTheOffsetAndKeepsTheLatticeOfImages) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -22,7 +23,7 @@ TEST(Blocking, GivesTheInefficiencyOfAKnownSeries) {
     const double noise = std::sqrt(2.0 / result.degrees_of_freedom);
     EXPECT_NEAR(result.inefficiency / exact, 1.0, 4.0 * noise) << "phi = " << phi;
     EXPECT_LT(noise, 0.15) << "phi = " << phi;
-    EXPECT_NEAR(result.effective_samples * result.inefficiency, 200000.0, 1e-6);
+    EXPECT_NEAR(result.effective_samples, std::min(200000.0, 200000.0 / result.inefficiency), 1e-6);
     EXPECT_NEAR(result.error, source.error_of_mean(series.size()), 2.0 * noise * result.error) << "phi = " << phi;
   }
 }
@@ -104,6 +105,33 @@ TEST(Blocking, RefusesToAverageWhatIsNotANumber) {
   series[50] = std::nan("");
   EXPECT_TRUE(std::isnan(automatic_blocking(series).mean));
   EXPECT_TRUE(std::isnan(automatic_blocking(series).error));
+}
+
+TEST(Blocking, NeverHasMoreEffectiveSamplesThanSamples) {
+  for (int replica_count = 1; replica_count <= 4; ++replica_count) {
+    AutoregressiveSeries source(0.9, 18);
+    std::vector<std::vector<double>> series(static_cast<std::size_t>(replica_count));
+    int above = 0;
+    for (int i = 0; i < 1000; ++i) {
+      for (std::vector<double>& replica : series) replica = source.stationary(5);
+      const std::vector<std::span<const double>> replicas(series.begin(), series.end());
+      above += automatic_blocking(replicas).effective_samples > 5.0 * replica_count;
+    }
+    EXPECT_EQ(above, 0) << replica_count << " replicas";
+  }
+}
+
+TEST(Blocking, DoesNotTakeReplicaMeansThatAgreeByChanceForASmallError) {
+  const std::vector<double> excursion = {1.0, 1.0, -1.0, -1.0}, alternating = {1.0, -1.0, 1.0, -1.0};
+  const std::vector<std::span<const double>> replicas(4, excursion);
+  const Blocking result = automatic_blocking(replicas);
+  EXPECT_EQ(result.mean, 0.0);
+  EXPECT_EQ(result.degrees_of_freedom, 3);
+  // V(2) from window sums 2, 0, -2 in 16 samples.
+  EXPECT_NEAR(result.error, std::sqrt(8.0 / 3.0 / (2.0 * (1.0 - 2.0 / 16.0)) / 16.0), 1e-12);
+  EXPECT_TRUE(std::isnan(automatic_blocking(std::vector<std::span<const double>>(4, alternating)).error));
+  EXPECT_TRUE(std::isnan(automatic_blocking(std::vector<std::span<const double>>(3, excursion)).error));
+  EXPECT_TRUE(std::isnan(automatic_blocking(std::vector<std::span<const double>>(2, excursion)).error));
 }
 
 TEST(Blocking, WidensTheErrorWhenOneReplicaWentElsewhere) {

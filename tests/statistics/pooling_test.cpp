@@ -100,6 +100,18 @@ TEST(Pooling, MakesTheReplicaSpreadTheErrorWhereReplicasAreTooShortForBlocks) {
   EXPECT_NEAR(found.one_sigma, 0.6827, 0.04);
 }
 
+TEST(Pooling, GivesNoErrorFromTheMeansOfTwoOrThreeReplicas) {
+  // Half a relaxation time each, phi = 0.98. Means that agreed by chance used to give an error to 0.34 and 0.41 of
+  // them.
+  EXPECT_NEAR(coverage(0.98, 25, 2, 2000).without_error, 0.757, 0.04);
+  const Coverage three = coverage(0.98, 25, 3, 2000);
+  EXPECT_NEAR(three.without_error, 0.939, 0.03);
+  EXPECT_LT(three.far_too_small * (1.0 - three.without_error), 0.08) << "0.12 of all series before";
+  const Coverage four = coverage(0.98, 25, 4, 2000);
+  EXPECT_EQ(four.without_error, 0.0);
+  EXPECT_NEAR(four.one_sigma, 0.6827, 0.04);
+}
+
 TEST(Pooling, GivesTheMeanOverAllSamples) {
   const std::vector<std::vector<double>> replicas = {{1.0, 2.0, 3.0}, {}, {6.0}, {-1.0, -1.0}, {0.0}, {1.0}};
   const Estimate estimate = pooled_mean(replicas);
@@ -121,7 +133,7 @@ TEST(Pooling, GivesNoErrorWithoutBlocks) {
   EXPECT_TRUE(std::isnan(single.effective_samples));
   const Estimate two = pooled_mean(std::vector<std::vector<double>>{{5.0}, {7.0}});
   EXPECT_EQ(two.value, 6.0);
-  EXPECT_TRUE(std::isnan(two.error)) << "two values are not three effective samples";
+  EXPECT_TRUE(std::isnan(two.error)) << "two replicas do not tell their own spread";
 }
 
 TEST(Pooling, AppliesStudentsFactorBelowTenDegreesOfFreedom) {

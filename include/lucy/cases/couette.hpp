@@ -97,6 +97,7 @@ struct CouetteFrame {
 class CouetteRun {
  public:
   /// `threads` share the work inside this system; the result does not depend on their number.
+  /// Throws BadInput for what validate() refuses.
   CouetteRun(const CouettePoint& point, int replica, int threads = 1);
   ~CouetteRun();
   CouetteRun(CouetteRun&&) noexcept;

@@ -33,7 +33,8 @@ consteval std::size_t quantity(std::string_view name) {
   throw "no such quantity";
 }
 
-/// `too_short` (in files: short): no error bar could be given for the viscosity (at zero rate: for P_xy), or a
+/// `too_short` (in files: short): no error bar could be given for the viscosity (at zero rate: for P_xy; never for a
+/// sheared flow without a thermostat, which heats up for ever), or a
 /// target_relative_error was asked for and not reached. `failed`: see TableRow::failure.
 enum class RowStatus { ok, too_short, failed };
 

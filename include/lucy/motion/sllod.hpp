@@ -26,7 +26,8 @@
 
 namespace lucy::motion {
 
-/// How the flow is driven and kept warm.
+/// How the flow is driven and kept warm: strain rate in inverse time, tau in time, K_0 in energy (of all particles;
+/// 0: that of the start).
 struct Shear {
   double strain_rate = 0.0;
   Thermostat thermostat = Thermostat::isoenergetic;

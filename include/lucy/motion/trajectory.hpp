@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lucy/archive.hpp"
@@ -28,7 +29,7 @@ namespace lucy::motion {
 
 struct Watch {
   double energy_tolerance = 1e-5;  ///< |dE|/N of one step above which it is done again in halves
-  bool rescale = true;             ///< isoenergetic: E back to its start, isokinetic: K; no effect on the others
+  bool rescale = true;             ///< with RK4; isoenergetic: E back to its start, isokinetic: K; others: no effect
   int most_halvings = 12;
 };
 
@@ -45,10 +46,12 @@ class Trajectory {
  public:
   static constexpr int columns = 2 * D;
 
+  /// The isokinetic thermostat scales the start to its target kinetic energy, when one is given.
+  /// Throws RunFailed when the box is too small for the range.
   Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear, Integrator integrator,
              const Watch& watch, const Team& team);
 
-  /// Moves on by `dt`. Throws RunFailed when even the smallest substep loses energy.
+  /// Moves on by `dt`. Throws RunFailed, naming time and cause, when even the smallest substep fails.
   void advance(double dt);
 
   /// Sorts the particles and makes the neighbour list anew, for steps of `dt`. The list is no part of what save()
@@ -74,6 +77,7 @@ class Trajectory {
   std::vector<double> forces() const { return by_particle(force_, 0); }
 
   void save(ArchiveWriter& archive) const;
+  /// Takes a state saved by a trajectory of the same settings. Throws RunFailed when it is truncated or of others.
   void load(ArchiveReader& archive);
 
   // What runge_kutta_4 asks of its system.
@@ -84,6 +88,11 @@ class Trajectory {
   std::array<double, sllod_numbers> number_rates() const { return {friction_.zeta_rate, friction_.energy_rate}; }
 
  private:
+  double largest_acceleration() const;
+  bool rescales() const;
+  double rescaling_target() const;
+  void scale_momenta(double factor);
+  std::string why_stuck(bool near, double piece) const;
   static std::array<const double*, D> pointers(const space::Columns& columns, int first);
   bool list_lasts(double dt);
   bool try_step(double dt);
@@ -100,7 +109,8 @@ class Trajectory {
   space::Box<D> box_;  // at the moment the list was made
   pairs::ClusterList<D> list_;
 
-  std::vector<std::int32_t> number_;  // of the particle in each slot
+  std::vector<std::int32_t> number_;         // of the particle in each slot
+  std::vector<std::int32_t> number_before_;  // scratch of renew_list()
   Phase<sllod_numbers> now_;
   Phase<sllod_numbers> next_;
   space::Columns sum_;    // scratch of the integrator
@@ -112,6 +122,7 @@ class Trajectory {
   double list_acceleration_ = 0.0;  // bound on every particle's, since the list was made
   int halvings_ = 0;                // of the present step
   double last_error_ = 0.0;         // |dE|/N of the last trial step
+  bool spent_ = false;              // the last trial step left no kinetic energy to rescale
   double conserved_ = 0.0;          // E (isoenergetic) or K (isokinetic) at the start
 
   md::PairTotals<D> pair_totals_;

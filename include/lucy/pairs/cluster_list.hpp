@@ -117,6 +117,7 @@ class ClusterList {
     std::size_t last_cluster = 0;            ///< one past
     std::vector<std::uint32_t> cluster_end;  ///< per cluster of the block, where its rows end in `entries`
     std::vector<RowEntry> entries;
+    std::vector<RowEntry> candidates;  // scratch of build()
   };
 
   /// For `particles` particles in a box of the given edge lengths.
@@ -128,8 +129,8 @@ class ClusterList {
   std::size_t slots() const { return clusters() * lane_count; }
   std::size_t clusters() const { return pencil_begin_.back(); }
 
-  /// The longest lifetime for which pairs stay within the images that a list can name; zero or less if even a
-  /// standing start is too far (box below twice the range).
+  /// The longest lifetime for which pairs stay within the images that a list can name; zero when the box is shorter
+  /// than range + 2 slack.
   double longest_lifetime(double range, double slack, double largest_speed, double strain_rate) const;
 
   /// Sorts the particles. Gives for every new slot the old slot it takes its particle from (nobody: empty).

@@ -25,6 +25,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lucy/pairs/cluster_list.hpp"
@@ -175,9 +176,12 @@ Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, do
         add(detail::traverse_block<D, Sum>(blocks[b], images, range, pass, sum));
       }
     } else {
-      std::vector<Totals<Sum>> parts(static_cast<std::size_t>((count - colour + 1) / 2));
+      thread_local std::vector<Totals<Sum>> parts;  // kept from call to call: no allocation per step
+      parts.resize(static_cast<std::size_t>((count - colour + 1) / 2));
+      const std::span<Totals<Sum>> shared(parts);  // the others' own `parts` are empty
       team.share(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t part) {
-        parts[part] = detail::traverse_block<D, Sum>(blocks[2 * part + colour], images, range, pass, sum);
+        shared[static_cast<std::size_t>(part)] =
+            detail::traverse_block<D, Sum>(blocks[2 * part + colour], images, range, pass, sum);
       });
       for (const auto& part : parts) add(part);
     }

@@ -68,10 +68,13 @@ class Box {
   /// The image of `position` inside [0, L)^D. Crossing +y by L_y shifts x by -offset.
   void wrap(Vector<D>& position) const {
     for (int d = D - 1; d >= 0; --d) {
-      const double crossings = std::floor(position[d] / lengths_[d]);
+      double crossings = std::floor(position[d] / lengths_[d]);
       if (crossings == 0.0) continue;
       position[d] -= crossings * lengths_[d];
-      if (position[d] >= lengths_[d]) position[d] = 0.0;  // -1e-17 + L rounds to L
+      if (position[d] >= lengths_[d]) {  // -1e-17 + L rounds to L: the next image's zero
+        position[d] = 0.0;
+        crossings += 1.0;
+      }
       if constexpr (D > 1) {
         if (d == 1) position[0] -= crossings * offset_;
       }
