@@ -13,7 +13,9 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double fewest_effective_samples = 3.0;
-constexpr std::size_t fewest_replicas = 4;  // whose means alone give an error
+// Replicas whose means alone give an error: so many, or two at least of so many samples each. Less is called too short.
+constexpr std::size_t fewest_replicas = 4;
+constexpr std::size_t fewest_samples_of_two = 16;
 
 /// Running sums of the deviations from the grand mean, one list per replica: a block sum is one difference.
 using RunningSums = std::vector<std::vector<double>>;
@@ -130,10 +132,11 @@ Blocking automatic_blocking(std::span<const std::span<const double>> replicas) {
     const double blocks = samples / static_cast<double>(block) - static_cast<double>(sums.size());
     const int degrees_of_freedom = std::max(1, static_cast<int>(0.75 * blocks));
     const Blocking result = with_error(block, long_run_variance, variance, samples, mean, degrees_of_freedom);
-    return result.effective_samples >= fewest_effective_samples ? result : without_error(mean);
+    if (result.effective_samples >= fewest_effective_samples) return result;
   }
-  // Fewer replica means would have to be judged by their own spread, and those that agree by chance would pass.
-  return sums.size() >= fewest_replicas ? from_replica_means(sums, mean, samples, variance) : without_error(mean);
+  // By count alone: if the means were judged by their own spread, those that agree by chance would pass.
+  const bool by_means = sums.size() >= fewest_replicas || (sums.size() >= 2 && shortest >= fewest_samples_of_two);
+  return by_means ? from_replica_means(sums, mean, samples, variance) : without_error(mean);
 }
 
 }  // namespace lucy::statistics

@@ -17,10 +17,10 @@
 //     b^3 > n g(b)^2 / 2,        b at most half of the shortest replica.
 // The power law is that of Lee et al. (Phys. Rev. E 83, 066706 (2011): b^3 > 2 n g^2, which balances bias against
 // noise); the prefactor is a quarter of theirs because the bias is gone. Asking it of all longer blocks too finds a
-// slow component under fast noise. A block length must leave three effective samples: a series with
-// fewer has hardly forgotten where it began. Where no b obeys it, four replicas and more get the error of the spread of
-// their means (replicas - 1 degrees of freedom), V not less than V(b) of half the shortest replica, lest means that
-// agree by chance pass for a small error; fewer replicas get none.
+// slow component under fast noise. A block length must leave three effective samples: a series with fewer has hardly
+// forgotten where it began. Where no b obeys all this, replicas get the error of the spread of their means (replicas - 1
+// degrees of freedom), V not less than V(b) of half the shortest replica, lest means that agree by chance pass for a
+// small error: four replicas of any length, or two and three of at least 16 samples each. Others get none.
 //
 // Measured coverage of the true mean by one and two standard errors (Student's factor below ten degrees of freedom
 // applied), stationary AR(1) series, relaxation time T = -1/ln phi, 4000 realisations each (2000 at 1000 T), so +-0.007
@@ -43,27 +43,15 @@
 // 100 T on. Shorter than about 5 T a single replica cannot know how little it has seen: of 3 T one in four is refused
 // and the others cover 0.46; four replicas cover 0.68-0.70 however short they are.
 //
-// Two and three replicas, phi = 0.98, 4000 realisations: fraction given an error, coverage of those by one and two
-// standard errors, errors (Student's factor not applied) below a third of the true one as a fraction of all series; in
-// the last column that fraction when means that left three effective samples also gave an error.
+// Two and three replicas, phi = 0.98, 4000 realisations, Student's factor applied:
 //
-//     length  replicas    given     coverage       far too small
-//      0.5 T     2        0.243   0.263  0.473     0.22    0.28
-//      0.5 T     3        0.061   0.184  0.369     0.06    0.12
-//      0.5 T     4        1.000   0.683  0.894     0.05
-//        2 T     2        0.354   0.420  0.699     0.12    0.16
-//        2 T     3        0.139   0.350  0.655     0.04    0.07
-//        2 T     4        1.000   0.685  0.910     0.02
-//        5 T     2        0.567   0.537  0.828     0.02    0.04
-//        5 T     3        0.336   0.482  0.790     0.01    0.02
-//        5 T     4        1.000   0.703  0.930     0.00
-//       10 T     2        0.817   0.654  0.898     0.00    0.00
-//       10 T     3        0.695   0.634  0.919     0.00    0.00
-//       30 T     2        0.996   0.698  0.937     0.00    0.00
-//       30 T     3        0.996   0.697  0.939     0.00    0.00
-//
-// What two or three replicas below 10 T are given comes from blocks that look uncorrelated by chance: as with a single
-// replica, an error that is given is then too small, and only longer series or a fourth replica help.
+//     length  replicas     coverage
+//      0.5 T     2        0.68  0.84
+//      0.5 T     3        0.70  0.88
+//        2 T     2        0.71  0.88
+//        5 T     3        0.71  0.92
+//       10 T     2        0.72  0.92
+//       10 T     3        0.72  0.94
 //
 // For comparison V(b) alone at Lee's block length, phi = 0.9, one replica: 0.556 at 10 T (one in five refused), 0.656
 // at 30 T, 0.660 at 100 T, errors 5 % too small at 100 T and 2 % at 1000 T.
