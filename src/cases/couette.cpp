@@ -18,6 +18,7 @@ namespace {
 constexpr double default_sample_interval = 0.5;
 constexpr double most_samples = 20000.0;
 constexpr double fewest_samples = 10.0;
+constexpr double most_steps = 1e13;  // sample counts stay exact; a machine lives for fewer
 
 // Scrambles 64 bits (the finaliser of SplitMix64, Steele, Lea and Flood, 2014).
 std::uint64_t scramble(std::uint64_t z) {
@@ -84,6 +85,13 @@ void validate(const CouettePoint& point) {
     refuse(fmt::format("shear.strain_rate = {} must be finite", point.strain_rate));
   if (!(point.equilibration >= 0.0) || !std::isfinite(point.equilibration)) {
     refuse(fmt::format("run.equilibration = {} must be 0 or above", point.equilibration));
+  }
+  const double steps = (point.equilibration + point.duration) / point.step;
+  if (!(steps <= most_steps)) {
+    refuse(
+        fmt::format("run.duration = {} and run.equilibration = {} make {} steps of run.step = {}; at most {} are "
+                    "possible",
+                    point.duration, point.equilibration, steps, point.step, most_steps));
   }
   if (point.particles < 4 || point.particles > 100'000'000) {
     refuse(fmt::format("system.particles = {} must be between 4 and 100000000", point.particles));

@@ -92,8 +92,15 @@ TableRow row_head(const CouettePoint& point, double duration, int replicas) {
   return row;
 }
 
-bool reached(const std::optional<double>& target_relative_error, const Estimate& estimate) {
-  return !target_relative_error || estimate.error <= *target_relative_error * std::abs(estimate.value);
+// A run that goes on until its error bar is small stops where the bar is small by chance: only bars that rest on many
+// effective samples count, for they scatter little.
+constexpr double fewest_samples_of_a_target = 50.0;
+
+// The time that was recorded: the duration asked for, unless that is no whole number of samples.
+double recorded_time(double duration, std::span<const CouetteRecord> replicas) {
+  if (replicas.empty() || replicas[0].samples.empty()) return duration;
+  const double recorded = replicas[0].sample_interval * static_cast<double>(replicas[0].samples.size());
+  return std::abs(recorded - duration) > 1e-6 * duration ? recorded : duration;
 }
 
 }  // namespace
@@ -110,9 +117,14 @@ std::string_view status_name(RowStatus status) {
   return "failed";
 }
 
+bool target_reached(const CouettePoint& point, const Estimate& viscosity) {
+  if (!point.target_relative_error || point.strain_rate == 0.0) return true;
+  return viscosity.effective_samples >= fewest_samples_of_a_target &&
+         viscosity.error <= *point.target_relative_error * std::abs(viscosity.value);
+}
+
 TableRow summarize(const CouettePoint& point, double duration, std::span<const CouetteRecord> replicas) {
-  // A duration below one step records one step.
-  TableRow row = row_head(point, std::max(duration, point.step), static_cast<int>(replicas.size()));
+  TableRow row = row_head(point, recorded_time(duration, replicas), static_cast<int>(replicas.size()));
   const std::vector<std::size_t> cuts = equilibration_cuts(replicas);
   double discarded = 0.0;
   for (std::size_t r = 0; r < replicas.size(); ++r) {
@@ -133,13 +145,18 @@ TableRow summarize(const CouettePoint& point, double duration, std::span<const C
   const Estimate estimate = statistics::pooled_mean(key);
   row.effective_samples = estimate.effective_samples;
   row.spread = statistics::replica_spread(key);
-  row.status = std::isnan(estimate.error) ? RowStatus::too_short : RowStatus::ok;
+  if (rate != 0.0) {
+    row.estimates[quantity("viscosity")] = estimate;
+    row.estimates[quantity("normal_stress")] = statistics::pooled_mean(
+        series_of(replicas, cuts, [rate](const Sample& sample) { return stress_difference(sample) / (rate * rate); }));
+  }
+  bool all_known = !std::isnan(estimate.error);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const bool needs_a_rate = i == quantity("viscosity") || i == quantity("normal_stress");
+    if (rate != 0.0 || !needs_a_rate) all_known = all_known && !std::isnan(row.estimates[i].error);
+  }
+  row.status = all_known && target_reached(point, estimate) ? RowStatus::ok : RowStatus::too_short;
   if (rate == 0.0) return row;
-
-  row.estimates[quantity("viscosity")] = estimate;
-  row.estimates[quantity("normal_stress")] = statistics::pooled_mean(
-      series_of(replicas, cuts, [rate](const Sample& sample) { return stress_difference(sample) / (rate * rate); }));
-  if (!reached(point.target_relative_error, estimate)) row.status = RowStatus::too_short;
   if (point.thermostat == motion::Thermostat::none) {
     // The work of the flow stays in: the fluid heats up for ever, and no average has an error bar.
     for (Estimate& each : row.estimates) each.error = std::numeric_limits<double>::quiet_NaN();

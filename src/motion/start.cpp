@@ -13,6 +13,8 @@ namespace lucy::motion {
 
 namespace {
 
+constexpr double least_excess = 2e-5;
+
 // Phi of particles on, or a little off, their lattice sites: a plain double loop over sites within reach, run once.
 double configuration_energy(const kernel::Lucy<2>& kernel, const std::array<std::int64_t, 2>& sites, double spacing,
                             const std::vector<space::Vector<2>>& position) {
@@ -76,7 +78,8 @@ void refuse_impossible_start(const kernel::Lucy<2>& kernel, std::int64_t particl
                     "1.5); the nearest numbers that do are {} and {}",
                     particles, below, above));
   }
-  const double coldest = lattice_energy(kernel, density);
+  // A start needs some kinetic energy: what would be lost in rounding the lattice's energy for print is too little.
+  const double coldest = lattice_energy(kernel, density) * (1.0 + least_excess);
   if (!(energy_per_particle > coldest)) {
     throw BadInput(
         fmt::format("system.energy_per_particle = {} must be above {:.5f}, the potential energy per "

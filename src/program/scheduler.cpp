@@ -131,7 +131,7 @@ struct Scheduler::Implementation {
   // Of state(), which one thread calls.
   Clock::time_point next_estimate = Clock::now();
   std::size_t estimated_point = 0;
-  statistics::Estimate estimate;
+  statistics::Estimate estimate = {not_a_number, not_a_number, not_a_number, 0};
 
   explicit Implementation(Settings given) : settings(std::move(given)) {}
 
@@ -340,8 +340,7 @@ struct Scheduler::Implementation {
     cases::TableRow row = cases::summarize(point.settings, duration, records);
     const auto& viscosity = row.estimates[cases::quantity("viscosity")];
     // Negated, so that an error that is not known counts as one too large.
-    const bool wanting = point.settings.target_relative_error &&
-                         !(viscosity.error <= *point.settings.target_relative_error * std::abs(viscosity.value));
+    const bool wanting = !cases::target_reached(point.settings, viscosity);
     if (wanting && stage + 1 < point.durations.size()) {
       const std::scoped_lock hold(lock);
       ++point.stage;

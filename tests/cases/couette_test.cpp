@@ -164,6 +164,21 @@ TEST(Couette, ShearWithoutAThermostatHasNoErrorBar) {
   EXPECT_GT(row.estimates[quantity("kinetic_temperature")].value, 1.0);  // it has heated up
 }
 
+TEST(Couette, ATargetIsMetOnlyFromManyEffectiveSamples) {
+  CouettePoint p = point(100, 1.0, 0.5, 10.0);
+  p.target_relative_error = 0.1;
+  statistics::Estimate estimate{1.0, 0.05, 400.0, 30};
+  EXPECT_TRUE(target_reached(p, estimate));
+  estimate.effective_samples = 10.0;
+  EXPECT_FALSE(target_reached(p, estimate));
+  estimate = {1.0, 0.2, 400.0, 30};
+  EXPECT_FALSE(target_reached(p, estimate));
+  estimate = {1.0, std::nan(""), std::nan(""), 0};
+  EXPECT_FALSE(target_reached(p, estimate));
+  p.strain_rate = 0.0;
+  EXPECT_TRUE(target_reached(p, estimate));
+}
+
 TEST(Couette, RecordsTheWholeDurationAndNothingOfTheEquilibration) {
   CouettePoint p = point(64, 1.0, 0.3, 7.3);
   p.equilibration = 2.0;
@@ -238,6 +253,9 @@ TEST(Couette, RefusesWhatCannotBeRun) {
   expect_refusal(with([](auto& p) { p.strain_rate = 20.0; }), "shear.strain_rate");
   expect_refusal(with([](auto& p) { p.frame_interval = 0.123; }), "output.frame_interval");
   expect_refusal(with([](auto& p) { p.sample_interval = 1000.0; }), "output.sample_interval");
+  expect_refusal(with([](auto& p) { p.energy_per_particle = 0.41305; }), "system.energy_per_particle");
+  expect_refusal(with([](auto& p) { p.duration = 1e18; }), "run.duration");
+  expect_refusal(with([](auto& p) { p.step = 1e-300; }), "run.step");
   expect_refusal(with([](auto& p) { p.equilibration = -1.0; }), "run.equilibration");
   expect_refusal(with([](auto& p) { p.energy_tolerance = 0.0; }), "run.energy_tolerance");
   expect_refusal(with([](auto& p) { p.kinetic_temperature = -0.5; }), "system.kinetic_temperature");

@@ -33,9 +33,9 @@ consteval std::size_t quantity(std::string_view name) {
   throw "no such quantity";
 }
 
-/// `too_short` (in files: short): no error bar could be given for the viscosity (at zero rate: for P_xy; never for a
-/// sheared flow without a thermostat, which heats up for ever), or a
-/// target_relative_error was asked for and not reached. `failed`: see TableRow::failure.
+/// `too_short` (in files: short): some quantity could not be given an error bar (a sheared flow without a thermostat,
+/// which heats up for ever, never has any), or a target_relative_error was asked for and not reached. `failed`: see
+/// TableRow::failure.
 enum class RowStatus { ok, too_short, failed };
 
 /// The status as it stands in files: ok, short, failed.
@@ -58,6 +58,11 @@ struct TableRow {
   statistics::ReplicaSpread spread;  ///< of the viscosity (P_xy at zero rate) over replicas; not in table.csv
   std::string failure;               ///< why, when status is failed; empty otherwise
 };
+
+/// Whether the viscosity is known as well as the point's target_relative_error asks, from 50 effective samples at
+/// least: a run that stops where its error bar is small by chance would have too small an error bar. True without a
+/// target and at zero rate.
+bool target_reached(const CouettePoint& point, const statistics::Estimate& viscosity);
 
 /// The row of a point from what its replicas recorded, `duration` being the recorded time per replica. Replicas may
 /// differ in length; without any sample all values are nan and the status is too_short.

@@ -12,7 +12,8 @@ namespace lucy::files {
 class DirectoryLock {
  public:
   /// Locks `directory`/.lock, creating that file when needed. Throws BadInput when another program holds the lock
-  /// (naming its process number), RunFailed when the file cannot be made.
+  /// (naming its process number) or when this one may not write there, RunFailed when the file cannot be made
+  /// for another reason.
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
   DirectoryLock(DirectoryLock&& other) noexcept;

@@ -3,9 +3,11 @@
 //
 // Configurations on their way into a point's H5MD file: records of one size, appended while the point runs.
 // A checkpoint states how many records it knows of; what was appended after it is cut off when the run resumes.
-// Record, in the machine's byte order: step (8 bytes), time, offset, L_x, L_y, x0 y0 x1 y1 ..., px0 py0 px1 py1 ...
+// Record, in the machine's byte order: step (8 bytes), time, offset, L_x, L_y, x0 y0 x1 y1 ..., px0 py0 px1 py1 ...,
+// CRC-64 of all these (checkpoint.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -29,18 +31,20 @@ class FrameSpool {
   /// Throws RunFailed when the disk refuses; the records before stay whole.
   void append(const cases::CouetteFrame& frame);
 
-  /// Forgets all but the first `count` records (and half a record at the end). Throws RunFailed when there are fewer.
+  /// Forgets all but the first `count` records (and half a record at the end). Throws RunFailed when there are
+  /// fewer, or when one of those that stay is damaged; the file is then as it was.
   void truncate(std::int64_t count);
 
   /// Forces everything appended to disk; call it before writing the checkpoint that counts these frames.
   void synchronise();
 
-  /// Throws RunFailed when there is no such record or it cannot be read.
+  /// Throws RunFailed when there is no such record, or it cannot be read or is damaged.
   cases::CouetteFrame read(std::int64_t index) const;
   std::vector<cases::CouetteFrame> read_all() const;
 
  private:
   std::int64_t record_size() const;
+  std::vector<std::byte> read_record(std::int64_t index) const;
   void close_file();
 
   std::filesystem::path path_;
