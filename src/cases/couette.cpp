@@ -18,7 +18,8 @@ namespace {
 constexpr double default_sample_interval = 0.5;
 constexpr double most_samples = 20000.0;
 constexpr double fewest_samples = 10.0;
-constexpr double most_steps = 1e13;  // sample counts stay exact; a machine lives for fewer
+constexpr double most_steps = 4e15;  // counted exactly by a double; no machine lives for so many
+constexpr std::int64_t most_steps_per_sample = 1'000'000'000;
 
 // Scrambles 64 bits (the finaliser of SplitMix64, Steele, Lea and Flood, 2014).
 std::uint64_t scramble(std::uint64_t z) {
@@ -56,12 +57,13 @@ int sample_steps(const CouettePoint& point) {
     // Frames fall on sample boundaries: a whole number of samples between frames.
     if (point.frame_interval > 0.0) {
       const std::int64_t between = std::max<std::int64_t>(1, steps_in(point.frame_interval, point.step));
-      auto steps = std::clamp<std::int64_t>(steps_in(interval, point.step), 1, between);
+      auto steps =
+          std::clamp<std::int64_t>(steps_in(interval, point.step), 1, std::min(between, most_steps_per_sample));
       while (between % steps != 0) --steps;
       return static_cast<int>(steps);
     }
   }
-  return static_cast<int>(std::max<std::int64_t>(1, steps_in(interval, point.step)));
+  return static_cast<int>(std::clamp<std::int64_t>(steps_in(interval, point.step), 1, most_steps_per_sample));
 }
 
 void validate(const CouettePoint& point) {
