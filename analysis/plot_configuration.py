@@ -55,9 +55,20 @@ def read_last_frame(path, replica, velocities):
         fail(f"cannot read {path} as a point file of Lucy: {error}")
 
 
+def without_noise(offset, width):
+    """The offset, but 0 where only rounding tells it from 0 or from a whole box length."""
+    return 0.0 if abs(offset - width * round(offset / width)) < 1e-9 * width else offset
+
+
+def plain(value):
+    """Four digits without an exponent."""
+    return np.format_float_positional(value, precision=4, unique=False, fractional=False, trim="-")
+
+
 def draw(frame):
-    position, offset = frame["position"], frame["offset"]
+    position = frame["position"]
     width, height = frame["edges"][0, 0], frame["edges"][1, 1]
+    offset = without_noise(frame["offset"], width)
     strip = STRIP * height
     figure, axes = plt.subplots(figsize=(6, 6 * (1 + 2 * STRIP) * height / width + 0.5))
     size = np.clip(12000 / len(position), 0.3, 40)
@@ -74,10 +85,15 @@ def draw(frame):
         corner = (up * offset) % width
         axes.plot([corner, corner], [edge, edge + up * strip], color="0.5", linewidth=0.9, linestyle="--", zorder=1)
     axes.add_patch(plt.Rectangle((0, 0), width, height, fill=False, linewidth=1.1, zorder=4))
-    axes.annotate("", xy=(offset, height + 0.6 * strip), xytext=(0, height + 0.6 * strip),
-                  arrowprops={"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.3, "shrinkA": 0, "shrinkB": 0},
-                  zorder=5)
-    axes.text(0.0, height + 1.12 * strip, f"image offset {offset:.3g}", color="#D55E00", va="bottom", fontsize=9)
+    reach = (0.0, height + 0.6 * strip), (offset, height + 0.6 * strip)
+    if abs(offset) > 0.03 * width:
+        axes.annotate("", xy=reach[1], xytext=reach[0],
+                      arrowprops={"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.3, "shrinkA": 0,
+                                  "shrinkB": 0},
+                      annotation_clip=False, zorder=5)
+    elif offset != 0:  # too short for a head
+        axes.plot(*zip(*reach), color="#D55E00", linewidth=1.3, zorder=5)
+    axes.text(0.0, height + 1.12 * strip, f"image offset {plain(offset)}", color="#D55E00", va="bottom", fontsize=9)
 
     if "velocity" in frame:
         velocity = frame["velocity"]

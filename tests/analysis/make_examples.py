@@ -1,6 +1,9 @@
 # Lucy: smooth-particle and molecular dynamics on one set of kernels.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small inputs for the plotting scripts: DIR/table.csv with every awkward row there is, and DIR/point_001.h5."""
+"""Small inputs for the plotting scripts: DIR/table.csv with every awkward row there is, its input.toml, and point files.
+
+The images of DIR/point_001.h5 are offset by 6.5, those of point_zero.h5 and point_whole.h5 by rounding only.
+"""
 
 import pathlib
 import sys
@@ -26,20 +29,30 @@ ROWS = (
 )
 (directory / "table.csv").write_text("\n".join((COLUMNS,) + ROWS) + "\n", encoding="utf-8")
 
+(directory / "input.toml").write_text("""[system]
+density = 1.0
+[kernel]
+name = "lucy"
+range = 3.0
+[shear]
+thermostat = "isoenergetic"
+""", encoding="utf-8")
+
 generator = np.random.default_rng(5)
 count, length = 400, 20.0
-with h5py.File(directory / "point_001.h5", "w") as file:
-    file.create_group("parameters").attrs.update({"energy_per_particle": 1.0, "strain_rate": 0.5})
-    group = file.create_group("particles/replica_01")
-    offsets = np.array([0.0, 6.5])
-    lattice = np.stack(np.meshgrid(np.arange(20.0), np.arange(20.0)), axis=-1).reshape(-1, 2) + 0.5
-    position = np.mod(lattice + 0.15 * generator.standard_normal((2, count, 2)), length)
-    momentum = 0.7 * generator.standard_normal((2, count, 2))
-    velocity = momentum.copy()
-    velocity[:, :, 0] += 0.5 * position[:, :, 1]
-    edges = np.array([[[length, 0.0], [offset, length]] for offset in offsets])
-    for name, value in (("position", position), ("momentum", momentum), ("velocity", velocity), ("box/edges", edges),
-                        ("lees_edwards/offset", offsets[:, None])):
-        group[f"{name}/value"] = value
-        group[f"{name}/time"] = np.array([10.0, 20.0])
-        group[f"{name}/step"] = np.array([200, 400])
+for name, last_offset in (("001", 6.5), ("zero", 1.42e-14), ("whole", length - 1e-14)):
+    with h5py.File(directory / f"point_{name}.h5", "w") as file:
+        file.create_group("parameters").attrs.update({"energy_per_particle": 1.0, "strain_rate": 0.5})
+        group = file.create_group("particles/replica_01")
+        offsets = np.array([0.0, last_offset])
+        lattice = np.stack(np.meshgrid(np.arange(20.0), np.arange(20.0)), axis=-1).reshape(-1, 2) + 0.5
+        position = np.mod(lattice + 0.15 * generator.standard_normal((2, count, 2)), length)
+        momentum = 0.7 * generator.standard_normal((2, count, 2))
+        velocity = momentum.copy()
+        velocity[:, :, 0] += 0.5 * position[:, :, 1]
+        edges = np.array([[[length, 0.0], [offset, length]] for offset in offsets])
+        for quantity, value in (("position", position), ("momentum", momentum), ("velocity", velocity), ("box/edges", edges),
+                            ("lees_edwards/offset", offsets[:, None])):
+            group[f"{quantity}/value"] = value
+            group[f"{quantity}/time"] = np.array([10.0, 20.0])
+            group[f"{quantity}/step"] = np.array([200, 400])
