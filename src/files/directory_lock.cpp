@@ -17,7 +17,13 @@ namespace lucy::files {
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
   const std::string path = (directory / ".lock").string();
   FileDescriptor file(path, O_RDWR | O_CREAT);
-  if (!file.is_open()) throw RunFailed(fmt::format("cannot create {}: {}", path, system_reason(errno)));
+  if (!file.is_open()) {
+    const int reason = errno;
+    const std::string message = fmt::format("cannot create {}: {}", path, system_reason(reason));
+    if (reason == EACCES || reason == EPERM || reason == EROFS)
+      throw BadInput(message + " (choose another directory with --out)");
+    throw RunFailed(message);
+  }
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) throw RunFailed(fmt::format("cannot lock {}: {}", path, system_reason(errno)));
     std::array<char, 24> holder{};

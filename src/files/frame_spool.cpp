@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <cstring>
 #include <utility>
 
 #include "file_descriptor.hpp"
 #include "lucy/archive.hpp"
 #include "lucy/errors.hpp"
+#include "lucy/files/checkpoint.hpp"
 
 namespace lucy::files {
 
@@ -54,7 +56,7 @@ void FrameSpool::close_file() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::int64_t FrameSpool::record_size() const { return 8 * (5 + 4 * particles_); }
+std::int64_t FrameSpool::record_size() const { return 8 * (5 + 4 * particles_ + 1); }
 
 void FrameSpool::append(const cases::CouetteFrame& frame) {
   const auto numbers = static_cast<std::size_t>(2 * particles_);
@@ -71,6 +73,9 @@ void FrameSpool::append(const cases::CouetteFrame& frame) {
     const auto view = std::as_bytes(std::span(*values));
     bytes.insert(bytes.end(), view.begin(), view.end());
   }
+  const std::uint64_t checksum = crc64(bytes);
+  const auto view = std::as_bytes(std::span(&checksum, 1));
+  bytes.insert(bytes.end(), view.begin(), view.end());
   // Written at the place that `count` gives, so that half a record left by an earlier failure is overwritten.
   if (::lseek(descriptor_, count_ * record_size(), SEEK_SET) < 0 || !write_all(descriptor_, bytes))
     fail(path_, "add to");
@@ -80,6 +85,7 @@ void FrameSpool::append(const cases::CouetteFrame& frame) {
 void FrameSpool::truncate(std::int64_t count) {
   if (count < 0 || count > count_)
     throw RunFailed(fmt::format("{} holds {} frames where the checkpoint knows of {}", path_.string(), count_, count));
+  for (std::int64_t i = 0; i < count; ++i) read_record(i);
   if (::ftruncate(descriptor_, count * record_size()) != 0) fail(path_, "cut off");
   count_ = count;
 }
@@ -88,11 +94,22 @@ void FrameSpool::synchronise() {
   if (::fsync(descriptor_) != 0) fail(path_, "force to disk");
 }
 
-cases::CouetteFrame FrameSpool::read(std::int64_t index) const {
+std::vector<std::byte> FrameSpool::read_record(std::int64_t index) const {
   if (index < 0 || index >= count_)
     throw RunFailed(fmt::format("{} has no frame {}: it holds {}", path_.string(), index, count_));
   std::vector<std::byte> bytes(static_cast<std::size_t>(record_size()));
   if (!files::read_all(descriptor_, bytes, index * record_size())) fail(path_, "read");
+  const std::size_t contents = bytes.size() - sizeof(std::uint64_t);
+  std::uint64_t checksum = 0;
+  std::memcpy(&checksum, bytes.data() + contents, sizeof checksum);
+  bytes.resize(contents);
+  if (crc64(bytes) != checksum)
+    throw RunFailed(fmt::format("frame {} in {} is damaged: its checksum is wrong", index + 1, path_.string()));
+  return bytes;
+}
+
+cases::CouetteFrame FrameSpool::read(std::int64_t index) const {
+  const std::vector<std::byte> bytes = read_record(index);
   ArchiveReader record(bytes);
   cases::CouetteFrame frame;
   frame.step = record.get<std::int64_t>();

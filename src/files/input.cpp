@@ -177,7 +177,9 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
         .name = "frame_interval",
         .unit = "time",
         .meaning =
-            "Time between recorded configurations, a whole number of steps and of sample intervals; 0 records none.",
+            "Time between recorded configurations of the first replica, a whole number of steps; 0 records none. They "
+            "fall on the end of the equilibration and on multiples of this interval after it. A sample_interval that "
+            "is not set is shortened until it divides this one; one that is set must divide it.",
         .range = Range::at_least(0)},
        stored_in(&P::frame_interval)},
   };

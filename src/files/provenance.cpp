@@ -110,8 +110,12 @@ void write_provenance(const std::filesystem::path& path, const Provenance& prove
   add("started", json_string(utc_text(provenance.started)));
   add("finished", json_string(utc_text(provenance.finished)));
   add("resumed", provenance.resumed ? "true" : "false");
-  add("wall_seconds", json_number(provenance.wall_seconds));
-  add("wall_seconds_of_points", fmt::format("[{}]", points), true);
+  add("wall_seconds_of_this_session", json_number(provenance.wall_seconds_of_this_session));
+  add("wall_seconds_of_points", fmt::format("[{}]", points));
+  add("wall_seconds_note",
+      json_string("of_this_session: since the program was started last; of_points: of all sessions, summed over the "
+                  "replicas of each row of table.csv"),
+      true);
   write_file_atomically(path, text + "}\n");
 }
 

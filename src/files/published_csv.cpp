@@ -167,9 +167,12 @@ PublishedTable read_published_table(const std::string& name_or_path, const std::
   const bool is_path = name_or_path.ends_with(".csv") || name_or_path.find('/') != std::string::npos;
   const std::filesystem::path given(name_or_path);
   const auto entry = find_in_index(reference_directory, is_path ? given.stem().string() : name_or_path);
+  std::error_code error;  // what cannot be looked at will not be readable either
+  if ((is_path || !entry) && std::filesystem::is_directory(given, error)) return read_own(given / "table.csv");
   if (!is_path && !entry)
-    throw BadInput(fmt::format("there is no published table \"{}\": use {}, or the path of a .csv file", name_or_path,
-                               fmt::join(published_table_names(reference_directory), ", ")));
+    throw BadInput(fmt::format(
+        "there is no published table \"{}\": use {}, or the path of a .csv file or of the directory of a sweep",
+        name_or_path, fmt::join(published_table_names(reference_directory), ", ")));
   const std::filesystem::path path = is_path ? given : reference_directory / (name_or_path + ".csv");
   const CsvFile file(path);
   if (file.has_column("viscosity_error")) return read_own(path);

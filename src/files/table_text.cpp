@@ -36,6 +36,35 @@ std::string fixed(double value, int decimals) {
 
 std::string not_finite(double value) { return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"; }
 
+/// Plain decimals are for people; beyond this many characters nobody counts the zeros any more.
+constexpr std::size_t widest_plain = 12;
+
+bool too_wide(std::string_view number) {
+  if (number.starts_with('-')) number.remove_prefix(1);
+  return number.size() > widest_plain;
+}
+
+std::string without_last_zeros(std::string text) {
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+/// "13.52(14)"; both numbers finite, the error above zero.
+std::string plain_with_error(double value, double error) {
+  const int power = leading_power(error, 2);
+  const int decimals = 1 - power;
+  if (decimals > most_decimals) return fixed(value, most_decimals) + "(0)";
+  if (power < 0) {
+    const std::string digits = fmt::format("{:.0f}", error * std::pow(10.0, decimals));
+    return fmt::format("{}({})", fixed(value, decimals), digits);
+  }
+  if (power == 0) return fmt::format("{}({:.1f})", fixed(value, 1), error);
+  const double unit = std::pow(10.0, power - 1);
+  return fmt::format("{}({:.0f})", fixed(std::round(value / unit) * unit, 0), std::round(error / unit) * unit);
+}
+
 /// Columns of text, each as wide as its widest cell; the first `left_aligned` ones and the last start at the left.
 class TextTable {
  public:
@@ -153,29 +182,23 @@ std::string verdict_text(const Comparison& comparison) {
 std::string format_plain(double value, int significant_digits) {
   if (!std::isfinite(value)) return not_finite(value);
   if (value == 0.0) return "0";
-  const int decimals = significant_digits - 1 - leading_power(value, significant_digits);
-  std::string text = fixed(value, std::max(decimals, 0));
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-  }
-  return text;
+  const int power = leading_power(value, significant_digits);
+  const std::string text = without_last_zeros(fixed(value, std::max(significant_digits - 1 - power, 0)));
+  if (!too_wide(text)) return text;
+  const std::string digits = fmt::format("{:.{}e}", value, significant_digits - 1);
+  return fmt::format("{}e{}", without_last_zeros(digits.substr(0, digits.find('e'))), power);
 }
 
 std::string format_with_error(double value, double error) {
   if (!std::isfinite(value)) return not_finite(value);
   if (!std::isfinite(error)) return format_plain(value, 4) + "(nan)";
   if (error <= 0.0) return format_plain(value) + "(0)";
-  const int power = leading_power(error, 2);
-  const int decimals = 1 - power;
-  if (decimals > most_decimals) return fixed(value, most_decimals) + "(0)";
-  if (power < 0) {
-    const std::string digits = fmt::format("{:.0f}", error * std::pow(10.0, decimals));
-    return fmt::format("{}({})", fixed(value, decimals), digits);
-  }
-  if (power == 0) return fmt::format("{}({:.1f})", fixed(value, 1), error);
-  const double unit = std::pow(10.0, power - 1);
-  return fmt::format("{}({:.0f})", fixed(std::round(value / unit) * unit, 0), std::round(error / unit) * unit);
+  const int largest = leading_power(std::max(std::abs(value), error), 2);
+  const std::string text = plain_with_error(value, error);
+  const double unit = std::pow(10.0, largest);
+  if (!too_wide(text.substr(0, text.find('('))) || !(unit > 0.0)) return text;
+  const std::string scaled = fmt::format("{}e{}", plain_with_error(value / unit, error / unit), largest);
+  return scaled.size() < text.size() ? scaled : text;
 }
 
 std::string format_table(std::span<const TableRow> rows) {

@@ -4,6 +4,7 @@
 // The cost of a sweep before it is run: particle-steps from the input, the speed from a fifth of a second of the real
 // thing on as many threads as the sweep would use.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -62,6 +63,34 @@ void print_rows(const files::SweepInput& input) {
       line += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", cells[i], widths[i]);
     fmt::print("{}\n", line);
   }
+}
+
+/// Keys that are set but that no row makes use of, and what would.
+std::vector<std::string> keys_without_effect(const std::vector<cases::CouettePoint>& points) {
+  using cases::CouettePoint;
+  const auto is = [](motion::Thermostat thermostat) {
+    return [thermostat](const CouettePoint& point) { return point.thermostat == thermostat; };
+  };
+  const auto isokinetic = is(motion::Thermostat::isokinetic);
+  const auto nose_hoover = is(motion::Thermostat::nose_hoover);
+  std::vector<std::string> sentences;
+  const auto look = [&](std::string_view key, std::string_view user, const auto& set, const auto& used) {
+    if (std::ranges::any_of(points, set) &&
+        std::ranges::none_of(points, [&](const CouettePoint& point) { return set(point) && used(point); }))
+      sentences.push_back(fmt::format("without effect: {} (used only {})", key, user));
+  };
+  look(
+      "system.kinetic_temperature", "with the thermostat isokinetic or nose-hoover",
+      [](const CouettePoint& point) { return point.kinetic_temperature.has_value(); },
+      [&](const CouettePoint& point) { return isokinetic(point) || nose_hoover(point); });
+  look(
+      "shear.relaxation_time", "with the thermostat nose-hoover",
+      [](const CouettePoint& point) { return point.relaxation_time != CouettePoint{}.relaxation_time; }, nose_hoover);
+  look(
+      "run.maximum_duration", "with run.target_relative_error",
+      [](const CouettePoint& point) { return point.maximum_duration > 0.0; },
+      [](const CouettePoint& point) { return point.target_relative_error.has_value(); });
+  return sentences;
 }
 
 struct Measurement {
@@ -145,6 +174,8 @@ int check(const InputRequest& request) {
   fmt::print("{}{}{} point{}, {} thread{}:\n\n", input.title, input.title.empty() ? "" : "\n", input.points.size(),
              input.points.size() == 1 ? "" : "s", threads, threads == 1 ? "" : "s");
   print_rows(input);
+  const auto idle_keys = keys_without_effect(input.points);
+  if (!idle_keys.empty()) fmt::print("\n{}\n", fmt::join(idle_keys, "\n"));
 
   std::optional<cases::CouettePoint> small_point;
   std::optional<cases::CouettePoint> large_point;

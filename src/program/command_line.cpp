@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -43,7 +46,13 @@ constexpr std::string_view short_help =
 
 void say(std::string_view sentence) {
   std::fflush(stdout);
-  fmt::print(stderr, "lucy: {}\n", sentence);
+  std::fputs(fmt::format("lucy: {}\n", sentence).c_str(), stderr);  // where nobody listens, nothing is thrown
+}
+
+/// Whether standard output is a pipe whose reader has gone, as in `lucy explain | head -1`: it has read enough.
+bool reader_has_gone() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
 std::string version_text() {
@@ -100,7 +109,7 @@ std::string usage_error(const CLI::App& program, const CLI::ParseError& error,
 int tell_errors(const std::function<int()>& command) {
   try {
     const int code = command();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && !reader_has_gone()) {
       say(output_refused);
       return failed;
     }
@@ -108,11 +117,19 @@ int tell_errors(const std::function<int()>& command) {
   } catch (const BadInput& refusal) {
     say(refusal.what());
     return bad_usage;
+  } catch (const RunFailed& failure) {
+    say(failure.what());
+    return failed;
   } catch (const std::bad_alloc&) {
     say("there is not enough memory");
     return failed;
   } catch (const std::exception& failure) {
-    say(std::ferror(stdout) != 0 ? output_refused : failure.what());
+    if (std::ferror(stdout) == 0) {
+      say(failure.what());
+      return failed;
+    }
+    if (reader_has_gone()) return done;
+    say(output_refused);
     return failed;
   }
 }
@@ -120,10 +137,11 @@ int tell_errors(const std::function<int()>& command) {
 }  // namespace
 
 int run_program(int argument_count, const char* const* argument_values) {
+  std::signal(SIGPIPE, SIG_IGN);  // a sweep goes on when its reader goes away
   std::vector<std::string> words(argument_values, argument_values + argument_count);
   const std::vector<std::string> arguments(words.begin() + (words.empty() ? 0 : 1), words.end());
   if (arguments.empty()) {
-    fmt::print(stderr, "{}", short_help);
+    std::fputs(std::string(short_help).c_str(), stderr);
     return bad_usage;
   }
 
@@ -184,8 +202,8 @@ int run_program(int argument_count, const char* const* argument_values) {
   compare_command->add_option("TABLE", table, "table.csv of a sweep, or the directory that holds it")->required();
   compare_command
       ->add_option("--with", published,
-                   "Name of a published table (posch1995_table1, posch1995_table2), or a "
-                   "CSV file")
+                   "Name of a published table (posch1995_table1, posch1995_table2), a "
+                   "CSV file, or the directory of another sweep")
       ->type_name("NAME")
       ->required();
   compare_command->set_help_flag("-h,--help", "This text");

@@ -31,13 +31,16 @@ bool terminal_can_redraw() {
   return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
 }
 
+/// A terminal or reader that has gone is no reason to stop a sweep.
+void put(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 }  // namespace
 
 Console::Console() : can_redraw_(terminal_can_redraw()) {}
 
 void Console::say(std::string_view sentence) {
   const std::scoped_lock hold(lock_);
-  fmt::print(stderr, "{}lucy: {}\n{}", status_.empty() ? "" : erase_line, sentence, status_);
+  put(fmt::format("{}lucy: {}\n{}", status_.empty() ? "" : erase_line, sentence, status_));
   std::fflush(stderr);
 }
 
@@ -46,7 +49,7 @@ void Console::show_status(const std::string& line) {
   const std::scoped_lock hold(lock_);
   if (line.empty() && status_.empty()) return;
   status_ = line;
-  fmt::print(stderr, "{}{}", erase_line, line);
+  put(fmt::format("{}{}", erase_line, line));
   std::fflush(stderr);
 }
 
@@ -64,7 +67,8 @@ std::string status_line(const SweepState& state, double elapsed_seconds, int wid
       fmt::format("{}/{} point{}", state.points_done, state.points, state.points == 1 ? "" : "s");
   std::string label = state.label;
   std::string estimate;
-  if (std::isfinite(state.viscosity.value)) {
+  // One without an error bar is no estimate yet.
+  if (std::isfinite(state.viscosity.value) && std::isfinite(state.viscosity.error) && state.viscosity.error > 0.0) {
     estimate = fmt::format("viscosity {}", files::format_with_error(state.viscosity.value, state.viscosity.error));
     label += ": ";
   }
@@ -73,13 +77,14 @@ std::string status_line(const SweepState& state, double elapsed_seconds, int wid
   };
   const std::string elapsed = whole(std::floor(elapsed_seconds));
   const std::string left =
-      std::isfinite(state.seconds_left) ? fmt::format(", {} left", whole(std::ceil(state.seconds_left))) : "";
+      std::isfinite(state.seconds_left) ? fmt::format("{} left", whole(std::ceil(state.seconds_left))) : "";
+  const std::string times = left.empty() ? elapsed : elapsed + ", " + left;
 
-  // From the whole line down to what matters most.
-  const std::vector<std::vector<std::string>> versions = {{bar, share, points, label + estimate, elapsed + left},
-                                                          {share, points, label + estimate, elapsed + left},
-                                                          {share, points, estimate, elapsed + left},
-                                                          {share, points, elapsed + left},
+  // From the whole line down to what matters most. An estimate is never shown without its point.
+  const std::vector<std::vector<std::string>> versions = {{bar, share, points, label + estimate, times},
+                                                          {share, points, label + estimate, times},
+                                                          {share, label + estimate, left.empty() ? elapsed : left},
+                                                          {share, points, times},
                                                           {share, points}};
   std::string line;
   for (const auto& parts : versions) {

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -28,6 +29,7 @@
 #include "lucy/build_record.hpp"
 #include "lucy/errors.hpp"
 #include "lucy/files/atomic_file.hpp"
+#include "lucy/files/checkpoint.hpp"
 #include "lucy/files/directory_lock.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/provenance.hpp"
@@ -56,35 +58,52 @@ constexpr double least_believable_p_value = 1e-3;
 // Matplotlib draws in seconds; a script that takes this long hangs.
 constexpr double longest_drawing = 300.0;
 
+/// On standard output. A reader that goes away (`lucy sweep ... | head -1`) or a full disk there must not keep the
+/// pictures from being drawn; the end of the program looks whether everything was written.
+template <class... Values>
+void print(fmt::format_string<Values...> format, Values&&... values) {
+  std::fputs(fmt::format(format, std::forward<Values>(values)...).c_str(), stdout);
+}
+
 std::string user_name() {
   const passwd* entry = ::getpwuid(::geteuid());
   return entry != nullptr && entry->pw_name[0] != '\0' ? entry->pw_name : "unknown";
 }
 
-/// Checkpoints of another build are of no use: its arithmetic may differ in the last bit.
+/// checkpoints/build.txt: the build in one line, and in a second one a checksum of the first.
+std::string build_record_text(const std::string& build) {
+  return fmt::format("{}\nCRC-64 {:016x}\n", build, files::crc64(std::as_bytes(std::span(build))));
+}
+
+/// Checkpoints of another build are of no use: its arithmetic may differ in the last bit. Each of them knows its build
+/// and is judged by it; the record says it once for all. Where it is gone or damaged, it is written anew.
 fs::path prepare_checkpoints(const fs::path& directory, const std::string& build, Console& console) {
   fs::path checkpoints = directory / "checkpoints";
   const fs::path record = checkpoints / "build.txt";
+  const std::string expected = build_record_text(build);
   std::error_code error;
-  if (fs::exists(checkpoints, error)) {
-    std::string there;
+  std::string there;
+  if (fs::exists(record, error)) {
     try {
       there = files::read_text_file(record);
     } catch (const BadInput&) {
-      there.clear();  // killed before it was written, so there are no checkpoints either
+      there.clear();  // as damaged as can be
     }
-    if (there != build + "\n") {
-      if (!there.empty())
-        console.say(
-            fmt::format("the checkpoints in {} are of another build of Lucy, whose bits this one cannot promise: "
-                        "the sweep starts from the beginning\n  theirs: {}  this: {}",
-                        checkpoints.string(), there, build));
+    const std::string theirs = there.substr(0, there.find('\n'));
+    if (there != build_record_text(theirs)) {
+      console.say(
+          fmt::format("{} is damaged and is written anew; the checkpoints are judged one by one", record.string()));
+    } else if (theirs != build) {
+      console.say(
+          fmt::format("the checkpoints in {} are of another build of Lucy, whose bits this one cannot promise: "
+                      "the sweep starts from the beginning\n  theirs: {}\n  this: {}",
+                      checkpoints.string(), theirs, build));
       fs::remove_all(checkpoints, error);
       if (error) throw RunFailed(fmt::format("cannot remove {}: {}", checkpoints.string(), error.message()));
     }
   }
   make_directory(checkpoints);
-  if (!fs::exists(record, error)) files::write_file_atomically(record, build + "\n");
+  if (there != expected) files::write_file_atomically(record, expected);
   return checkpoints;
 }
 
@@ -168,7 +187,7 @@ void draw_pictures(const fs::path& directory, const std::vector<cases::CouettePo
   try {
     scripts = data_directory() / "analysis";
   } catch (const RunFailed& failure) {
-    fmt::print("\nNo pictures: {}.\n", failure.what());
+    print("\nNo pictures: {}.\n", failure.what());
     return;
   }
   if (const auto picture = directory / "viscosity.png"; !fs::exists(picture, error))
@@ -183,22 +202,22 @@ void draw_pictures(const fs::path& directory, const std::vector<cases::CouettePo
 
   const auto python = find_python(python_candidates(), {"numpy", "matplotlib", "h5py"});
   if (!python) {
-    fmt::print(
+    print(
         "\nNo pictures: there is no Python with numpy, matplotlib and h5py (Debian: python3-matplotlib,\n"
         "python3-h5py). With one, to draw them:\n");
     for (auto& drawing : drawings) {
       drawing.words.insert(drawing.words.begin(), "python3");
-      fmt::print("  {}\n", shell_text(drawing.words));
+      print("  {}\n", shell_text(drawing.words));
     }
     return;
   }
   for (auto& drawing : drawings) {
     drawing.words.insert(drawing.words.begin(), {*python, "-B"});
     const ScriptResult result = run_command(drawing.words, longest_drawing);
-    if (!result.output.empty()) fmt::print("\n{}", result.output);
+    if (!result.output.empty()) print("\n{}", result.output);
     if (!result.succeeded)
-      fmt::print("\nNo {}: {}\nTo draw it: {}\n", drawing.picture.filename().string(), result.complaint,
-                 shell_text(drawing.words));
+      print("\nNo {}: {}\nTo draw it: {}\n", drawing.picture.filename().string(), result.complaint,
+            shell_text(drawing.words));
   }
 }
 
@@ -213,25 +232,25 @@ void print_files(const fs::path& directory, std::size_t points) {
   std::error_code error;
   std::erase_if(names, [&](const std::string& name) { return !fs::exists(directory / name, error); });
   std::string line = fmt::format("In {}:", directory.string());
-  fmt::print("\n");
+  print("\n");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string word = names[i] + (i + 1 < names.size() ? "," : "");
     if (line.size() + 1 + word.size() > 118) {
-      fmt::print("{}\n", line);
+      print("{}\n", line);
       line = " ";
     }
     line += ' ' + word;
   }
-  fmt::print("{}\n", line);
+  print("{}\n", line);
 }
 
 /// The end of every sweep that has its table.csv.
 int print_results(const fs::path& directory, const std::vector<cases::CouettePoint>& points,
                   const std::vector<cases::TableRow>& rows, const std::string& notes, const std::string& closing,
                   bool draw) {
-  fmt::print("{}", files::format_table(rows));
-  if (!notes.empty()) fmt::print("\n{}", notes);
-  fmt::print("\n{}\n", closing);
+  print("{}", files::format_table(rows));
+  if (!notes.empty()) print("\n{}", notes);
+  print("\n{}\n", closing);
   std::fflush(stdout);
   if (draw) draw_pictures(directory, points);
   print_files(directory, points.size());
@@ -239,8 +258,9 @@ int print_results(const fs::path& directory, const std::vector<cases::CouettePoi
                                     [](const cases::TableRow& row) { return row.status == cases::RowStatus::failed; });
   if (failed == 0) return 0;
   std::fflush(stdout);
-  fmt::print(stderr, "lucy: {} of {} point{} failed; the reason stands below the table, and the others are complete\n",
-             failed, rows.size(), rows.size() == 1 ? "" : "s");
+  const std::string count =
+      fmt::format("lucy: {} of {} point{} failed", failed, rows.size(), rows.size() == 1 ? "" : "s");
+  std::fputs((count + "; the reason stands below the table, and the others are complete\n").c_str(), stderr);
   return 1;
 }
 
@@ -294,7 +314,7 @@ void write_record(const fs::path& directory, const InputRequest& request, const 
   provenance.command_line = request.command_line;
   provenance.started = started;
   provenance.finished = std::chrono::system_clock::now();
-  provenance.wall_seconds = seconds;
+  provenance.wall_seconds_of_this_session = seconds;
   for (const auto& result : results) provenance.wall_seconds_of_points.push_back(result.seconds);
   provenance.resumed = resumed;
   files::write_provenance(directory / "provenance.json", provenance);

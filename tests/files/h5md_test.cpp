@@ -97,9 +97,31 @@ TEST(FrameSpool, ContinuesFromTheFramesThatTheCheckpointKnowsOf) {
   ASSERT_EQ(spool.count(), 4);
   expect_equal(spool.read(2), frame(2));
   expect_equal(spool.read(3), frame(7));
-  EXPECT_EQ(std::filesystem::file_size(folder / "frames.bin"), 4u * 8u * (5 + 4 * 4));
+  EXPECT_EQ(std::filesystem::file_size(folder / "frames.bin"), 4u * 8u * (5 + 4 * 4 + 1));
   EXPECT_THAT(message_of<RunFailed>([&] { spool.truncate(5); }), HasSubstr("holds 4 frames"));
   EXPECT_THAT(message_of<RunFailed>([&] { spool.read(4); }), HasSubstr("no frame 4"));
+}
+
+TEST(FrameSpool, RefusesDamagedFramesThatItIsToKeep) {
+  const ScratchFolder folder;
+  {
+    FrameSpool spool(folder / "frames.bin", 4);
+    for (int i = 0; i < 3; ++i) spool.append(frame(i));
+  }
+  {
+    std::fstream file(folder / "frames.bin", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(8 * (5 + 4 * 4 + 1) + 60);
+    file << "12345678";
+  }
+  FrameSpool spool(folder / "frames.bin", 4);
+  EXPECT_THAT(message_of<RunFailed>([&] { spool.read(1); }), HasSubstr("frames.bin is damaged"));
+  EXPECT_THROW(spool.read_all(), RunFailed);
+  EXPECT_THAT(message_of<RunFailed>([&] { spool.truncate(2); }), HasSubstr("frame 2 in"));
+  EXPECT_EQ(spool.count(), 3);
+  spool.truncate(1);  // what goes may be damaged
+  spool.append(frame(7));
+  expect_equal(spool.read(0), frame(0));
+  expect_equal(spool.read(1), frame(7));
 }
 
 TEST(FrameSpool, KeepsWholeRecordsOnAFullDisk) {

@@ -44,7 +44,7 @@ TEST(Provenance, IsReadByOthers) {
   provenance.seed = 18446744073709551615u;
   provenance.threads = 2;
   provenance.command_line = {"lucy", "sweep", "my input.toml"};
-  provenance.wall_seconds = 12.5;
+  provenance.wall_seconds_of_this_session = 12.5;
   provenance.wall_seconds_of_points = {1.25, std::nan("")};
   write_provenance(folder / "provenance.json", provenance);
   const std::string text = testing::contents(folder / "provenance.json");
@@ -53,7 +53,7 @@ TEST(Provenance, IsReadByOthers) {
   EXPECT_THAT(text, HasSubstr("\"command_line\": [\"lucy\", \"sweep\", \"my input.toml\"]"));
   EXPECT_THAT(text, HasSubstr("\"flags\": \"-O3 -DX=\\\"y\\\"\""));
   for (const char* key : {"version", "commit", "compiler", "processor", "host", "threads", "generator", "started",
-                          "finished", "resumed", "wall_seconds"})
+                          "finished", "resumed", "wall_seconds_of_this_session", "wall_seconds_note"})
     EXPECT_THAT(text, HasSubstr(fmt::format("\"{}\": ", key)));
   if (std::system("command -v /usr/bin/python3 > /dev/null") != 0) GTEST_SKIP() << "there is no /usr/bin/python3";
   const std::string command = "/usr/bin/python3 -c 'import json, sys; json.load(open(sys.argv[1]))' '" +

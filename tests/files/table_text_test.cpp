@@ -41,7 +41,20 @@ TEST(FormatWithError, StaysHonestWhereSomethingIsMissing) {
   EXPECT_EQ(format_with_error(1.0, 1e-300), "1.000000000000000(0)");
 }
 
-TEST(FormatPlain, NeverWritesAnExponent) {
+TEST(FormatWithError, WritesAnExponentWhereZerosWouldHaveToBeCounted) {
+  EXPECT_EQ(format_with_error(1.234e-20, 1.2e-22), "1.234(12)e-20");
+  EXPECT_EQ(format_with_error(-1.234e15, 1.2e13), "-1.234(12)e15");
+  EXPECT_EQ(format_with_error(0.0, 1e-20), "0.0(1.0)e-20");
+  EXPECT_EQ(format_with_error(1e-20, 1e-9), "0.0000000000(10)");
+  EXPECT_EQ(format_with_error(123.4567890123, 1e-10), "123.45678901230(10)");
+  EXPECT_EQ(format_with_error(3e-300, nan), "3e-300(nan)");
+  EXPECT_EQ(format_with_error(3e-300, 0.0), "3e-300(0)");
+}
+
+TEST(FormatPlain, WritesAnExponentOnlyWhereZerosWouldHaveToBeCounted) {
+  EXPECT_EQ(format_plain(1e-300), "1e-300");
+  EXPECT_EQ(format_plain(-2.5e-12, 2), "-2.5e-12");
+  EXPECT_EQ(format_plain(123456789012345.0), "1.23457e14");
   EXPECT_EQ(format_plain(0.00451), "0.00451");
   EXPECT_EQ(format_plain(0.5), "0.5");
   EXPECT_EQ(format_plain(0.0), "0");

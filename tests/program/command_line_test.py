@@ -3,6 +3,7 @@
 """The command line: exit codes and messages, what is refused and that nothing is touched then, and `lucy compare`."""
 
 import csv
+import os
 import shutil
 import subprocess
 import unittest
@@ -80,12 +81,31 @@ class CommandLine(ProgramTest):
         self.assertIn("work: 181 thousand to 1.74 million particle-steps", process.stdout)
         self.assertEqual(self.entries(), ["tiny.toml"])
 
+    def test_check_names_keys_without_effect(self):
+        sets = ["--set", "system.kinetic_temperature=0.5", "--set", "shear.relaxation_time=3", "--set",
+                "run.maximum_duration=100"]
+        process = self.lucy("check", "tiny.toml", *sets)
+        self.expect(process, 0)
+        for key in ("system.kinetic_temperature", "shear.relaxation_time", "run.maximum_duration"):
+            self.assertIn(f"without effect: {key} (used only with ", process.stdout)
+        process = self.lucy("check", "tiny.toml", *sets, "--set", "shear.thermostat='nose-hoover'", "--set",
+                            "run.target_relative_error=0.1")
+        self.expect(process, 0)
+        self.assertNotIn("without effect", process.stdout)
+        self.assertNotIn("without effect", self.lucy("check", "tiny.toml").stdout)
+
     def test_explain_names_every_key(self):
         text = self.lucy("explain").stdout
         for key in ("particles", "energy_per_particle", "strain_rate", "thermostat", "target_relative_error",
                     "frame_interval", "checkpoint_interval"):
             self.assertIn(key, text)
         self.assertNotIn("particles", self.lucy("explain", "run.step").stdout)
+
+    def test_a_reader_that_goes_away_is_no_error(self):
+        for command in ("explain", "check tiny.toml"):
+            piped = subprocess.run(f"{PROGRAM} {command} | true; echo ${{PIPESTATUS[0]}}", shell=True,
+                                   executable="/bin/bash", cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual((piped.stdout, piped.stderr), ("0\n", ""))
 
     def test_full_standard_output_is_told(self):
         with open("/dev/full", "w") as full:
@@ -98,6 +118,29 @@ class Directories(ProgramTest):
     def test_the_default_is_runs_and_the_name_of_the_input(self):
         self.sweep("tiny.toml")
         self.assertIn("table.csv", self.entries("runs/tiny"))
+
+    def test_a_sweep_ends_well_when_its_reader_goes_away(self):
+        command = f"{PROGRAM} sweep tiny.toml --out x | head -c 1 > /dev/null; echo ${{PIPESTATUS[0]}}"
+        for _ in range(2):  # run, and printed again
+            piped = subprocess.run(command, shell=True, executable="/bin/bash", cwd=self.folder, capture_output=True,
+                                   text=True, env=self.environment(pictures=True))
+            self.assertEqual((piped.stdout, piped.stderr), ("0\n", ""))
+            self.assertIn("table.csv", self.entries("x"))
+            self.assertNotIn("checkpoints", self.entries("x"))
+
+    def test_a_directory_that_may_not_be_written_to_is_refused(self):
+        (self.folder / "x").mkdir()
+        (self.folder / "x").chmod(0o555)
+        options = {}
+        if os.geteuid() == 0:  # who may write everywhere
+            self.folder.chmod(0o755)
+            options = {"user": 65534}
+        try:
+            process = self.lucy("sweep", "tiny.toml", "--out", "x", **options)
+        except OSError as refusal:
+            self.skipTest(f"not as somebody else: {refusal}")
+        self.expect(process, 2, "x/.lock", "Permission denied", "--out")
+        self.assertEqual(self.entries("x"), [])
 
     def test_an_empty_directory_is_used(self):
         (self.folder / "empty").mkdir()
@@ -224,6 +267,10 @@ class Compare(ProgramTest):
     def test_a_table_agrees_with_itself(self):
         self.write_table()
         self.assertEqual(self.lucy("compare", "t", "--with", "t/table.csv").returncode, 0)
+        for directory in ("t", "./t", str(self.folder / "t")):
+            self.expect(self.lucy("compare", "t", "--with", directory), 0)
+        (self.folder / "empty").mkdir()
+        self.expect(self.lucy("compare", "t", "--with", "empty"), 2, "empty/table.csv")
 
 
 if __name__ == "__main__":

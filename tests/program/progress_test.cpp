@@ -38,6 +38,26 @@ TEST(StatusLine, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(status_line(state, 3.0, 160), "[########------------]   41 %  2/5 points  3 s");
 }
 
+TEST(StatusLine, ShowsNoEstimateBeforeThereIsOne) {
+  auto state = halfway();
+  for (const statistics::Estimate& none : {statistics::Estimate{}, statistics::Estimate{2.66, unknown, unknown, 0},
+                                           statistics::Estimate{2.66, 0.0, 0, 0}}) {
+    state.viscosity = none;
+    EXPECT_EQ(status_line(state, 65.9, 160).find("viscosity"), std::string::npos) << status_line(state, 65.9, 160);
+  }
+}
+
+TEST(StatusLine, ShowsAnEstimateOnlyWithItsPoint) {
+  EXPECT_EQ(status_line(halfway(), 65.9, 80),
+            " 41 %  N = 1024, E/N = 1, rate 0.1: viscosity 2.661(31)  1 min 33 s left");
+  for (int width = 1; width < 160; ++width) {
+    const std::string line = status_line(halfway(), 65.9, width);
+    if (line.find("viscosity") != std::string::npos) {
+      EXPECT_NE(line.find("N = 1024, E/N = 1, rate 0.1: "), std::string::npos) << line;
+    }
+  }
+}
+
 TEST(StatusLine, NeverReachesTheEdgeOfTheTerminal) {
   for (int width = 1; width < 160; ++width)
     EXPECT_LT(static_cast<int>(status_line(halfway(), 65.0, width).size()), width) << width;

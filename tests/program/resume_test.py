@@ -41,6 +41,16 @@ frame_interval = 50
 SERIES = ("table.csv", "replicas.csv", "notes.txt", "input.toml", "point_001.h5", "point_002.h5")
 
 
+def crc64(text):
+    """CRC-64/XZ, as in files/checkpoint.hpp."""
+    remainder = 0xFFFFFFFFFFFFFFFF
+    for byte in text:
+        remainder ^= byte
+        for _ in range(8):
+            remainder = remainder >> 1 ^ (0xC96C5795D7870F42 if remainder & 1 else 0)
+    return remainder ^ 0xFFFFFFFFFFFFFFFF
+
+
 class Resume(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -154,6 +164,7 @@ class Resume(ProgramTest):
         self.assertEqual(self.contents("x", SERIES), expected)
         record = json.loads((self.folder / "x" / "provenance.json").read_text())
         self.assertTrue(record["resumed"])
+        self.assertIn("of all sessions", record["wall_seconds_note"])
 
     def test_a_damaged_checkpoint_is_told_of_and_the_one_before_taken(self):
         expected = self.uninterrupted()
@@ -222,6 +233,52 @@ class Resume(ProgramTest):
         self.assertIn("begins again", process.stderr)
         self.assertEqual(self.contents("x", SERIES), expected)
 
+    def test_damaged_frames_make_the_replica_begin_again(self):
+        expected = self.uninterrupted()
+        frames = self.folder / "x" / "checkpoints" / "frames_002_01.bin"
+        while not (frames.exists() and frames.stat().st_size > 0):
+            process = self.start_and_wait_for_checkpoint()
+            time.sleep(0.1)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(), 1)
+            process.stderr.close()
+        with open(frames, "r+b") as file:
+            file.seek(200)
+            file.write(b"garbage!")
+        process = self.sweep("longer.toml", "--out", "x")
+        self.assertRegex(process.stderr, "rate 1: replica 1 begins again.*frames_002_01.bin is damaged")
+        self.assertEqual(self.contents("x", SERIES), expected)
+
+    def test_a_damaged_record_of_the_build_costs_nothing(self):
+        expected = self.uninterrupted()
+        record = self.folder / "x" / "checkpoints" / "build.txt"
+        sound = None
+        for damage in (lambda text: os.urandom(300), lambda text: text[:40], lambda text: text[:-1], lambda text: b"",
+                       lambda text: text.replace(b"Lucy", b"Lusy"), None):
+            process = self.start_and_wait_for_checkpoint()
+            process.kill()
+            process.wait()
+            process.stderr.close()
+            if process.returncode == 0:
+                self.skipTest("too fast a machine")
+            sound = sound or record.read_bytes()
+            self.assertEqual(record.read_bytes(), sound)
+            if damage:
+                record.write_bytes(damage(sound))
+            else:
+                record.unlink()
+            process = self.start("sweep", "longer.toml", "--out", "x")
+            if damage:
+                complaint = process.stderr.readline()
+                self.assertIn("build.txt is damaged", complaint)
+                self.assertTrue(complaint.rstrip("\n").isprintable(), complaint)
+            self.assertIn("resuming", process.stderr.readline())
+            process.kill()
+            process.wait()
+            process.stderr.close()
+        self.sweep("longer.toml", "--out", "x")
+        self.assertEqual(self.contents("x", SERIES), expected)
+
     def test_checkpoints_of_another_build_are_not_taken_up(self):
         expected = self.uninterrupted()
         process = self.start_and_wait_for_checkpoint()
@@ -229,7 +286,8 @@ class Resume(ProgramTest):
         process.wait()
         process.stderr.close()
         record = self.folder / "x" / "checkpoints" / "build.txt"
-        record.write_text(record.read_text().replace("commit ", "commit 0"))
+        other = record.read_text().split("\n")[0].replace("commit ", "commit 0")
+        record.write_text(f"{other}\nCRC-64 {crc64(other.encode()):016x}\n")
         process = self.sweep("longer.toml", "--out", "x")
         self.assertIn("another build of Lucy", process.stderr)
         self.assertNotIn("resuming", process.stderr)

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // provenance.json: everything about a run that is not its result: who, where, with what, how long.
+// Of a sweep that was interrupted and resumed, command line, threads, started, finished and
+// wall_seconds_of_this_session are those of the last session alone; wall_seconds_of_points covers all sessions, except
+// what was lost when one was killed after its last checkpoint.
 #pragma once
 
 #include <chrono>
@@ -24,8 +27,9 @@ struct Provenance {
   std::vector<std::string> command_line;
   std::chrono::system_clock::time_point started;
   std::chrono::system_clock::time_point finished;
-  double wall_seconds = 0.0;
-  std::vector<double> wall_seconds_of_points;  ///< in the order of table.csv; nan (null in the file): not measured
+  double wall_seconds_of_this_session = 0.0;
+  /// Of all sessions, summed over replicas, in the order of table.csv; nan (null in the file): not measured.
+  std::vector<double> wall_seconds_of_points;
   bool resumed = false;
 };
 

@@ -14,7 +14,8 @@
 namespace lucy::files {
 
 /// A table by its name in `reference_directory`/index.csv, or by the path of a CSV file: one with the columns of the
-/// shipped tables and, unless its stem is in the index, a column energy_per_particle; or a table.csv of Lucy.
+/// shipped tables and, unless its stem is in the index, a column energy_per_particle; or a table.csv of Lucy, or
+/// the directory that holds it.
 /// Throws BadInput naming file and line, or, for an unknown name, the names there are.
 cases::PublishedTable read_published_table(const std::string& name_or_path,
                                            const std::filesystem::path& reference_directory);
