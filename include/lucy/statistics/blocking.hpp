@@ -18,8 +18,8 @@
 // The power law is that of Lee et al. (Phys. Rev. E 83, 066706 (2011): b^3 > 2 n g^2, which balances bias against
 // noise); the prefactor is a quarter of theirs because the bias is gone. Asking it of all longer blocks too finds a
 // slow component under fast noise. A block length must leave three effective samples: a series with fewer has hardly
-// forgotten where it began. Where no b obeys all this, replicas get the error of the spread of their means (replicas - 1
-// degrees of freedom), V not less than V(b) of half the shortest replica, lest means that agree by chance pass for a
+// forgotten where it began. Where no b obeys all this, replicas get the error of the spread of their means (replicas -
+// 1 degrees of freedom), V not less than V(b) of half the shortest replica, lest means that agree by chance pass for a
 // small error: four replicas of any length, or two and three of at least 16 samples each. Others get none.
 //
 // Measured coverage of the true mean by one and two standard errors (Student's factor below ten degrees of freedom
