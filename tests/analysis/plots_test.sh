@@ -4,6 +4,8 @@
 #
 # The plotting scripts on small made-up inputs: pictures appear, nothing is dropped in silence, mistakes get a sentence.
 # Exit 77 (skipped) when this machine's Python has no numpy, matplotlib or h5py.
+# Commands stand in variables with their interpreter, to be split into words.
+# shellcheck disable=SC2086
 set -u
 source_directory=${LUCY_SOURCE_DIRECTORY:-$(cd "$(dirname "$0")/../.." && pwd)}
 python="/usr/bin/python3 -B"
