@@ -183,7 +183,7 @@ std::string format_plain(double value, int significant_digits) {
   if (!std::isfinite(value)) return not_finite(value);
   if (value == 0.0) return "0";
   const int power = leading_power(value, significant_digits);
-  const std::string text = without_last_zeros(fixed(value, std::max(significant_digits - 1 - power, 0)));
+  std::string text = without_last_zeros(fixed(value, std::max(significant_digits - 1 - power, 0)));
   if (!too_wide(text)) return text;
   const std::string digits = fmt::format("{:.{}e}", value, significant_digits - 1);
   return fmt::format("{}e{}", without_last_zeros(digits.substr(0, digits.find('e'))), power);
@@ -194,7 +194,7 @@ std::string format_with_error(double value, double error) {
   if (!std::isfinite(error)) return format_plain(value, 4) + "(nan)";
   if (error <= 0.0) return format_plain(value) + "(0)";
   const int largest = leading_power(std::max(std::abs(value), error), 2);
-  const std::string text = plain_with_error(value, error);
+  std::string text = plain_with_error(value, error);
   const double unit = std::pow(10.0, largest);
   if (!too_wide(text.substr(0, text.find('('))) || !(unit > 0.0)) return text;
   const std::string scaled = fmt::format("{}e{}", plain_with_error(value / unit, error / unit), largest);
