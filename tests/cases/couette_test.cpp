@@ -37,7 +37,7 @@ void expect_within_four_errors(const TableRow& row, const char* name, double pub
 }
 
 // Posch, Hoover and Kum (1995), Table II (E = N, N = 1024, rate 0.5) and Table I (E = N/2, rate 1).
-TEST(Couette, AShortRunAgreesWithThePublishedRows) {
+TEST(CouetteLong, AShortRunAgreesWithThePublishedRows) {
   {
     const CouettePoint p = point(1024, 1.0, 0.5, 300.0);
     CouetteRun run(p, 0);
