@@ -17,7 +17,6 @@ axis, to the next rate.
 """
 
 import argparse
-import csv
 import math
 import pathlib
 import sys
@@ -33,7 +32,9 @@ try:
 except ImportError as missing:
     sys.exit(f"plot_viscosity.py needs numpy and matplotlib (Debian: python3-matplotlib): {missing}")
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # told apart by everyone
+import lucy_tables
+from lucy_tables import COLOURS, fail, number, read_rows
+
 MARKERS = {64: "P", 100: "X", 256: "v", 400: "^", 1024: "o", 4096: "s", 16384: "D"}  # the same in every plot
 OTHER_MARKERS = ("p", "<", ">", "h", "d", "*", "8")
 PANELS = (
@@ -49,33 +50,6 @@ PUBLISHED_CONDITIONS = (  # section, key, and the value at which the published t
 UNSTABLE_SHARE = 0.2  # of the kinetic energy in one particle, on average
 NOTE_LINES = 3
 NOTE_WIDTH = 165  # characters
-
-
-def fail(sentence):
-    print(f"plot_viscosity.py: {sentence}", file=sys.stderr)
-    sys.exit(2)
-
-
-def read_rows(path, columns):
-    """Rows of a CSV file as dictionaries; the file must have these columns."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            rows = list(reader)
-            header = reader.fieldnames or []
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        fail(f"cannot read {path}: {error}")
-    for column in columns:
-        if column not in header:
-            fail(f"{path}: the header has no column {column}")
-    return rows
-
-
-def number(path, row, column):
-    try:
-        return float(row[column])
-    except (TypeError, ValueError):
-        fail(f'{path}: {column} is "{row[column]}" where a number was expected')
 
 
 def read_table(path):
@@ -323,17 +297,9 @@ def unstable_bands(rows, published):
             rates = affected.setdefault(row["energy_per_particle"], {})
             rates[row["rate"]] = rates.get(row["rate"], False) or unstable
     for energy, rates in affected.items():
-        order = sorted(rates)
-        for index, rate in enumerate(order):
-            if not rates[rate]:
-                continue
-            low = math.sqrt(order[index - 1] * rate) if index > 0 else rate / 1.1
-            high = math.sqrt(order[index + 1] * rate) if index + 1 < len(order) else rate * 1.1
-            found = bands.setdefault(energy, [])
-            if index > 0 and rates[order[index - 1]]:
-                found[-1] = (found[-1][0], high)
-            else:
-                found.append((low, high))
+        found = lucy_tables.instability_bands(rates)
+        if found:
+            bands[energy] = found
     return bands
 
 
@@ -424,30 +390,20 @@ def draw(rows, published, notes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path, help="output directory of a sweep, with its table.csv")
-    parser.add_argument("--reference", type=pathlib.Path,
-                        default=pathlib.Path(__file__).resolve().parent.parent / "reference",
+    parser.add_argument("--reference", type=pathlib.Path, default=lucy_tables.REFERENCE,
                         help="directory of the published tables (default: the one shipped with Lucy)")
     options = parser.parse_args()
     rows = read_table(options.directory / "table.csv")
     if not rows:
         fail(f"{options.directory / 'table.csv'} has no rows")
-    plt.rcParams.update({"font.size": 10, "axes.linewidth": 0.8, "svg.hashsalt": "lucy", "mathtext.fontset": "cm"})
+    plt.rcParams.update(lucy_tables.STYLE)
     if not something_to_plot(rows):
         print(f"viscosity plot: not drawn, no row of {options.directory / 'table.csv'} has a value that logarithmic "
               "axes can show")
         return
     mark_differences(rows, options.directory / "input.toml")
     notes = Notes()
-    figure = draw(rows, read_published(options.reference), notes)
-    for name, metadata in (("viscosity.png", {"Software": None}), ("viscosity.svg", {"Date": None})):
-        temporary = options.directory / f".{name}.tmp"
-        try:
-            figure.savefig(temporary, format=name[-3:], dpi=200, metadata=metadata)
-            temporary.replace(options.directory / name)
-        except OSError as error:
-            temporary.unlink(missing_ok=True)
-            print(f"plot_viscosity.py: cannot write {options.directory / name}: {error}", file=sys.stderr)
-            sys.exit(1)
+    lucy_tables.save(draw(rows, read_published(options.reference), notes), options.directory, "viscosity")
     for note in notes.terminal:
         print(f"viscosity plot: {note}")
 

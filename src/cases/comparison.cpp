@@ -29,18 +29,10 @@ constexpr std::array<std::size_t, compared_quantities.size()> our_place = [] {
 }();
 static_assert(std::ranges::all_of(our_place, [](std::size_t i) { return i < quantities.size(); }));
 
-bool nearly_equal(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
-
 bool same_state(const TableRow& ours, const PublishedRow& published) {
   return ours.particles == published.particles &&
          nearly_equal(ours.energy_per_particle, published.energy_per_particle) &&
          nearly_equal(ours.strain_rate, published.strain_rate);
-}
-
-/// Statistical error and rounding of print together.
-double error_of_print(const PublishedCell& cell, double our_error, double time_ratio) {
-  if (cell.standard_error) return *cell.standard_error;
-  return std::hypot(cell.last_digit / std::sqrt(12.0), our_error * std::sqrt(time_ratio));
 }
 
 ComparedRow compare_row(const TableRow& ours, const PublishedRow& published) {
@@ -111,6 +103,13 @@ void judge(Comparison& comparison) {
 }
 
 }  // namespace
+
+bool nearly_equal(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+double error_of_print(const PublishedCell& cell, double our_error, double time_ratio) {
+  if (cell.standard_error) return *cell.standard_error;
+  return std::hypot(cell.last_digit / std::sqrt(12.0), our_error * std::sqrt(time_ratio));
+}
 
 void derive_viscosity(PublishedRow& row) {
   const PublishedCell& kinetic = row.cells[pxy_kinetic];

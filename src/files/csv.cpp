@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "lucy/errors.hpp"
 #include "lucy/files/atomic_file.hpp"
@@ -96,6 +97,21 @@ std::int64_t CsvFile::integer(const Row& row, std::size_t column) const {
     throw BadInput(
         fmt::format("{}:{}: {} is \"{}\" where a whole number was expected", path_, row.line, columns_[column], cell));
   return value;
+}
+
+void CsvLine::add(double value) { add(shortest_text(value)); }
+
+void CsvLine::add(std::int64_t value) { add(fmt::format("{}", value)); }
+
+void CsvLine::add(std::string_view cell) {
+  if (!first_) text_ += ',';
+  first_ = false;
+  text_ += cell;
+}
+
+std::string CsvLine::end() {
+  first_ = true;
+  return std::exchange(text_, {}) + '\n';
 }
 
 std::string shortest_text(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }

@@ -6,6 +6,7 @@
 #include <hdf5.h>
 
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <string_view>
 #include <type_traits>
@@ -213,8 +214,9 @@ std::string_view name_of(const Names& names, Value value) {
   return "unknown";
 }
 
-void write_parameters(hid_t file, const cases::CouettePoint& point) {
-  const Handle group = create_group(file, "parameters");
+/// What every state has, in the order of the attributes.
+template <class Point>
+void add_state(hid_t group, const Point& point) {
   add_attribute(group, "particles", point.particles);
   add_attribute(group, "energy_per_particle", point.energy_per_particle);
   add_attribute(group, "density", point.density);
@@ -222,56 +224,119 @@ void write_parameters(hid_t file, const cases::CouettePoint& point) {
   add_attribute(group, "reading", point.reading);
   add_attribute(group, "kernel", point.kernel);
   add_attribute(group, "range", point.range);
-  add_attribute(group, "strain_rate", point.strain_rate);
-  add_attribute(group, "thermostat", name_of(motion::thermostat_names, point.thermostat));
+}
+
+template <class Point>
+void add_run(hid_t group, const Point& point) {
   add_attribute(group, "integrator", name_of(motion::integrator_names, point.integrator));
   add_attribute(group, "step", point.step);
   add_attribute(group, "equilibration", point.equilibration);
   add_attribute(group, "duration", point.duration);
   add_attribute(group, "seed", static_cast<std::int64_t>(point.seed));
+}
+
+void write_parameters(hid_t file, const cases::CouettePoint& point) {
+  const Handle group = create_group(file, "parameters");
+  add_state(group, point);
+  add_attribute(group, "strain_rate", point.strain_rate);
+  add_attribute(group, "thermostat", name_of(motion::thermostat_names, point.thermostat));
+  add_run(group, point);
   if (point.kinetic_temperature) add_attribute(group, "kinetic_temperature", *point.kinetic_temperature);
   if (point.thermostat == motion::Thermostat::nose_hoover)
     add_attribute(group, "relaxation_time", point.relaxation_time);
+}
+
+void write_parameters(hid_t file, const cases::GreenKuboPoint& point) {
+  const Handle group = create_group(file, "parameters");
+  add_state(group, point);
+  add_attribute(group, "strain_rate", 0.0);
+  add_run(group, point);
+  add_attribute(group, "preparation", point.preparation);
+  add_attribute(group, "preparation_rate", cases::preparation_rate);
+  add_attribute(group, "sample_interval", cases::sample_interval(point));
 }
 
 std::string_view meaning(std::string_view observable) {
   if (observable == "potential_energy") return "Phi/N, no self term";
   if (observable == "kinetic_temperature") return "kT = K/(N-1) (two dimensions), peculiar momenta";
   if (observable == "largest_kinetic_share") return "largest K_i over K";
+  if (observable == "pressure_kinetic") return "K/V (two dimensions)";
+  if (observable == "pressure_potential") return "half the sum over pairs of r . F over V";
   if (observable.ends_with("_kinetic")) return "sum of p p/m over V, peculiar momenta";
   return "sum over pairs of r F over V";
 }
+
+/// The steps of samples at equal distances: the first one `interval` steps after `begin`.
+struct Pace {
+  std::int64_t begin = 0;
+  std::int64_t interval = 1;
+  double step = 0.0;  ///< time
+
+  Clock clock(std::size_t samples) const {
+    std::vector<std::int64_t> steps;
+    std::vector<double> times;
+    for (std::size_t i = 0; i < samples; ++i) {
+      steps.push_back(begin + (static_cast<std::int64_t>(i) + 1) * interval);
+      times.push_back(static_cast<double>(steps.back()) * step);
+    }
+    return {std::move(steps), std::move(times)};
+  }
+};
+
+enum class Samples { averages, instants };
+
+/// One element per entry of a sample.
+template <std::size_t Count>
+void write_samples(hid_t group, std::span<const std::string_view> names,
+                   std::span<const std::array<double, Count>> samples, const Pace& pace, Samples kind) {
+  Clock clock = pace.clock(samples.size());
+  const std::array<hsize_t, 1> shape = {clock.count()};
+  for (std::size_t quantity = 0; quantity < Count; ++quantity) {
+    std::vector<double> values;
+    values.reserve(samples.size());
+    for (const auto& sample : samples) values.push_back(sample[quantity]);
+    const Handle element =
+        write_element(group, std::string(names[quantity]), clock, shape, values, meaning(names[quantity]));
+    if (kind == Samples::averages) add_attribute(element, "averaged_over_steps", pace.interval);
+  }
+}
+
+constexpr std::string_view about_averages = "each value is the average over the steps that end at its step and time";
 
 void write_observables(hid_t observables, const std::string& name, const cases::CouettePoint& point,
                        const H5mdReplica& replica) {
   const Handle group = create_group(observables, name);
   const cases::CouetteRecord& record = *replica.record;
-  const int interval = cases::sample_steps(point);
-  std::vector<std::int64_t> steps;
-  std::vector<double> times;
-  for (std::size_t i = 0; i < record.samples.size(); ++i) {
-    steps.push_back((replica.equilibration_intervals + static_cast<std::int64_t>(i) + 1) * interval);
-    times.push_back(static_cast<double>(steps.back()) * point.step);
-  }
-  Clock clock(std::move(steps), std::move(times));
-  const std::array<hsize_t, 1> shape = {clock.count()};
-  for (std::size_t quantity = 0; quantity < cases::observables.size(); ++quantity) {
-    std::vector<double> values;
-    values.reserve(record.samples.size());
-    for (const auto& sample : record.samples) values.push_back(sample[quantity]);
-    const Handle element = write_element(group, std::string(cases::observables[quantity]), clock, shape, values,
-                                         meaning(cases::observables[quantity]));
-    add_attribute(element, "averaged_over_steps", static_cast<std::int64_t>(interval));
-  }
-  add_attribute(group, "description", "each value is the average over the steps that end at its step and time");
+  const std::int64_t interval = cases::sample_steps(point);
+  write_samples(group, cases::observables, std::span(record.samples),
+                {replica.equilibration_intervals * interval, interval, point.step}, Samples::averages);
+  add_attribute(group, "description", about_averages);
   add_attribute(group, "steps", record.steps);
   add_attribute(group, "subdivided_steps", record.subdivided_steps);
   add_attribute(group, "worst_energy_error", record.worst_energy_error);
   add_attribute(group, "energy_rescaled", record.energy_rescaled);
 }
 
-void write_particles(hid_t particles, const std::string& name, const cases::CouettePoint& point,
-                     const FrameSpool& frames) {
+void write_observables(hid_t observables, const std::string& name, const cases::GreenKuboPoint& point,
+                       const H5mdGreenKuboReplica& replica) {
+  const Handle group = create_group(observables, name);
+  const cases::GreenKuboRecord& record = *replica.record;
+  write_samples(group, cases::equilibrium_observables, std::span(record.samples),
+                {replica.first_recorded_step, cases::interval_steps(point), point.step}, Samples::averages);
+  add_attribute(group, "description", about_averages);
+  add_attribute(group, "steps", record.steps);
+  add_attribute(group, "subdivided_steps", record.subdivided_steps);
+  add_attribute(group, "energy_drift", record.energy_drift);
+  add_attribute(group, "largest_energy_error", record.largest_energy_error);
+  if (replica.series.empty()) return;
+  const Handle stress = create_group(group, "stress");
+  write_samples(stress, cases::sampled_quantities, replica.series,
+                {replica.first_recorded_step, std::llround(cases::sample_interval(point) / point.step), point.step},
+                Samples::instants);
+  add_attribute(stress, "description", "each value is that of its step and time");
+}
+
+void write_particles(hid_t particles, const std::string& name, double strain_rate, const FrameSpool& frames) {
   const Handle group = create_group(particles, name);
   const auto count = static_cast<hsize_t>(frames.count());
   std::vector<std::int64_t> steps;
@@ -290,7 +355,7 @@ void write_particles(hid_t particles, const std::string& name, const cases::Coue
   for (hsize_t index = 0; index < count; ++index) {
     const cases::CouetteFrame frame = frames.read(static_cast<std::int64_t>(index));
     std::vector<double> laboratory = frame.momentum;  // m = 1
-    for (std::size_t i = 0; i < laboratory.size(); i += 2) laboratory[i] += point.strain_rate * frame.position[i + 1];
+    for (std::size_t i = 0; i < laboratory.size(); i += 2) laboratory[i] += strain_rate * frame.position[i + 1];
     write_entry(position_value, shape, index, frame.position);
     write_entry(velocity_value, shape, index, laboratory);
     write_entry(momentum_value, shape, index, frame.momentum);
@@ -324,10 +389,14 @@ void write_particles(hid_t particles, const std::string& name, const cases::Coue
                 "axis of the shift: 0 is x");
   write_element(group, "lees_edwards/normal", clock, column, std::vector<int>(count, 1),
                 "axis of the gradient: 1 is y");
-  add_attribute(sliding, "strain_rate", point.strain_rate);
+  add_attribute(sliding, "strain_rate", strain_rate);
 }
 
-void write_contents(hid_t file, const cases::CouettePoint& point, std::span<const H5mdReplica> replicas,
+double strain_rate_of(const cases::CouettePoint& point) { return point.strain_rate; }
+double strain_rate_of(const cases::GreenKuboPoint&) { return 0.0; }
+
+template <class Point, class Replica>
+void write_contents(hid_t file, const Point& point, std::span<const Replica> replicas,
                     const H5mdAuthorship& authorship) {
   const Handle root = create_group(file, "h5md");
   add_attribute<int>(root, "version", std::array<int, 2>{1, 1});
@@ -340,27 +409,27 @@ void write_contents(hid_t file, const cases::CouettePoint& point, std::span<cons
 
   const Handle observables = create_group(file, "observables");
   bool with_frames = false;
-  for (const H5mdReplica& replica : replicas) {
+  for (const Replica& replica : replicas) {
     write_observables(observables, fmt::format("replica_{:02}", replica.replica + 1), point, replica);
     with_frames = with_frames || (replica.frames != nullptr && replica.frames->count() > 0);
   }
   if (!with_frames) return;
   const Handle particles = create_group(file, "particles");
-  for (const H5mdReplica& replica : replicas)
+  for (const Replica& replica : replicas)
     if (replica.frames != nullptr && replica.frames->count() > 0)
-      write_particles(particles, fmt::format("replica_{:02}", replica.replica + 1), point, *replica.frames);
+      write_particles(particles, fmt::format("replica_{:02}", replica.replica + 1), strain_rate_of(point),
+                      *replica.frames);
 }
 
 /// The finished file as it would stand on disk, handed to `use` while the library holds it.
-template <class Use>
-void with_file_image(const cases::CouettePoint& point, std::span<const H5mdReplica> replicas,
-                     const H5mdAuthorship& authorship, const Use& use) {
+template <class Write, class Use>
+void with_file_image(const Write& write, const Use& use) {
   constexpr std::size_t growth = std::size_t{1} << 20;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   checked(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
   checked(H5Pset_fapl_core(access, growth, false));
   const Handle file(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-  write_contents(file, point, replicas, authorship);
+  write(file);
   checked(H5Fflush(file, H5F_SCOPE_GLOBAL));
   const auto size = static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0)));
   void* image = nullptr;
@@ -368,23 +437,35 @@ void with_file_image(const cases::CouettePoint& point, std::span<const H5mdRepli
   use(std::span(*static_cast<const std::byte* const*>(image), size));
 }
 
-}  // namespace
-
-void write_h5md(const std::filesystem::path& path, const cases::CouettePoint& point,
-                std::span<const H5mdReplica> replicas, const H5mdAuthorship& authorship) {
+template <class Point, class Replica>
+void write_file(const std::filesystem::path& path, const Point& point, std::span<const Replica> replicas,
+                const H5mdAuthorship& authorship) {
   // The library has one state for the whole process, and Debian's build of it is not meant for two threads at once.
   static std::mutex library;
   const std::scoped_lock turn(library);
   const Quiet quiet;
   try {
     // Made in memory and written here: the library itself does not survive a disk that refuses.
-    with_file_image(point, replicas, authorship, [&path](std::span<const std::byte> image) {
+    const auto write = [&](hid_t file) { write_contents(file, point, replicas, authorship); };
+    with_file_image(write, [&path](std::span<const std::byte> image) {
       const std::array<std::span<const std::byte>, 1> pieces = {image};
       write_file_atomically(path, pieces);
     });
   } catch (const LibraryFailure& failure) {
     throw RunFailed(fmt::format("cannot write {}: {}", path.string(), failure.reason));
   }
+}
+
+}  // namespace
+
+void write_h5md(const std::filesystem::path& path, const cases::CouettePoint& point,
+                std::span<const H5mdReplica> replicas, const H5mdAuthorship& authorship) {
+  write_file(path, point, replicas, authorship);
+}
+
+void write_h5md(const std::filesystem::path& path, const cases::GreenKuboPoint& point,
+                std::span<const H5mdGreenKuboReplica> replicas, const H5mdAuthorship& authorship) {
+  write_file(path, point, replicas, authorship);
 }
 
 }  // namespace lucy::files

@@ -65,6 +65,15 @@ double unit_of_last_digit(std::string_view text) {
   return parse_number(fmt::format("1e{}", power)).value_or(0.0);
 }
 
+/// A cell as printed; an empty one stays unpublished.
+PublishedCell printed_cell(const CsvFile& file, const CsvFile::Row& cells, std::size_t column) {
+  PublishedCell cell;
+  if (cells.cells[column].empty()) return cell;
+  cell.value = file.number(cells, column);
+  cell.last_digit = unit_of_last_digit(cells.cells[column]);
+  return cell;
+}
+
 /// Marks the misprinted cells of `table`. The errata repeat what is printed, so that they cannot end up at a wrong
 /// cell.
 void apply_errata(const std::filesystem::path& path, PublishedTable& table) {
@@ -128,10 +137,7 @@ PublishedTable read_printed(const CsvFile& file, const std::optional<IndexEntry>
       row.instability_region = cells.cells[file.column("instability_region")] == "yes";
     for (std::size_t i = 0; i < cases::compared_quantities.size(); ++i) {
       if (cases::compared_quantities[i] == "viscosity") continue;
-      const std::size_t column = file.column(printed_column(cases::compared_quantities[i]));
-      if (cells.cells[column].empty()) continue;
-      row.cells[i].value = file.number(cells, column);
-      row.cells[i].last_digit = unit_of_last_digit(cells.cells[column]);
+      row.cells[i] = printed_cell(file, cells, file.column(printed_column(cases::compared_quantities[i])));
     }
     table.rows.push_back(std::move(row));
   }
@@ -186,6 +192,34 @@ std::vector<std::string> published_table_names(const std::filesystem::path& refe
   std::vector<std::string> names;
   for (const auto& entry : read_index(reference_directory)) names.push_back(entry.name);
   return names;
+}
+
+std::vector<cases::PublishedGreenKubo> read_published_green_kubo(const std::filesystem::path& path) {
+  const CsvFile file(path);
+  const auto positive = [&](const CsvFile::Row& cells, std::string_view name) {
+    const std::size_t column = file.column(name);
+    const double value = file.number(cells, column);
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw BadInput(fmt::format("{}:{}: {} is {} where a number above 0 was expected", file.path(), cells.line, name,
+                                 cells.cells[column]));
+    return value;
+  };
+  std::vector<cases::PublishedGreenKubo> values;
+  for (const auto& cells : file.rows()) {
+    const auto cell = [&](std::string_view name) { return printed_cell(file, cells, file.column(name)); };
+    cases::PublishedGreenKubo value;
+    value.particles = file.integer(cells, file.column("particles"));
+    value.energy_per_particle = file.number(cells, file.column("energy_per_particle"));
+    value.total_time = positive(cells, "total_time");
+    positive(cells, "viscosity");
+    value.viscosity = cell("viscosity");
+    if (file.has_column("viscosity_error")) value.viscosity.standard_error = positive(cells, "viscosity_error");
+    value.pressure = cell("pressure");
+    value.pressure_kinetic = cell("pressure_kinetic");
+    value.source = cells.cells[file.column("source")];
+    values.push_back(std::move(value));
+  }
+  return values;
 }
 
 }  // namespace lucy::files

@@ -104,6 +104,10 @@ ResolvedRow::Cell cell_of(const Entry& entry, std::size_t index) {
   return {entry.values[entry.is_list ? index : 0], entry.origin};
 }
 
+bool on_one_line(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+}
+
 [[noreturn]] void refuse_value(const Key& key, const Value& value, const Origin& origin) {
   std::string found = toml_text(value);
   if (found.size() > text_width) found = fmt::format("text of {} bytes", found.size());
@@ -221,6 +225,8 @@ std::string accepted_text(const Key& key) {
   switch (key.type) {
     case Type::text:
       return "text in quotes, on one line";
+    case Type::texts:
+      return "a list of texts, each in quotes and on one line";
     case Type::boolean:
       return "true or false";
     case Type::choice: {
@@ -273,10 +279,14 @@ Value checked_value(const Key& key, const Value& value, const Origin& origin) {
     case Type::text: {
       const auto* text = std::get_if<std::string>(&value);
       if (text == nullptr) refuse_value(key, value, origin);
-      const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-      if (std::any_of(text->begin(), text->end(), is_control)) refuse_value(key, value, origin);
+      if (!on_one_line(*text)) refuse_value(key, value, origin);
       if (key.type == Type::choice && std::find(key.choices.begin(), key.choices.end(), *text) == key.choices.end())
         refuse_value(key, value, origin);
+      return value;
+    }
+    case Type::texts: {
+      const auto* texts = std::get_if<Texts>(&value);
+      if (texts == nullptr || !std::all_of(texts->begin(), texts->end(), on_one_line)) refuse_value(key, value, origin);
       return value;
     }
   }
@@ -371,6 +381,11 @@ std::string explain(const Schema& schema, std::string_view filter) {
 }
 
 std::string toml_text(const Value& value) {
+  if (const auto* texts = std::get_if<Texts>(&value)) {
+    std::string list;
+    for (const std::string& text : *texts) list += (list.empty() ? "" : ", ") + toml_text(text);
+    return "[" + list + "]";
+  }
   if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
   if (const auto* real = std::get_if<double>(&value)) {

@@ -182,8 +182,25 @@ Value checked_node(const Key& key, const toml::node& node, const Origin& origin,
   return checked_value(key, *value, origin);
 }
 
+/// The list of texts that is the one value of a key of that type.
+Value checked_texts(const Key& key, const toml::node& node, const Origin& origin) {
+  const auto refuse = [&](std::string_view is, const toml::node& found) {
+    throw BadInput(
+        fmt::format("{}: {} must be {}, but {} {}", origin.where, key.path(), accepted_text(key), is, kind_of(found)));
+  };
+  const toml::array* list = node.as_array();
+  if (list == nullptr) refuse("is", node);
+  Texts texts;
+  for (const toml::node& element : *list) {
+    if (!element.is_string()) refuse("holds", element);
+    texts.push_back(element.as_string()->get());
+  }
+  return checked_value(key, texts, origin);
+}
+
 /// The value of `key` as written in `node`; `in_row`: inside a table of rows, where lists are refused.
 Entry entry_of(const Key& key, const toml::node& node, const Origin& origin, const std::string& row_name = {}) {
+  if (key.type == Type::texts) return {{checked_texts(key, node, origin)}, false, origin};
   const toml::array* list = node.as_array();
   if (list == nullptr) return {{checked_node(key, node, origin)}, false, origin};
   if (!row_name.empty() && key.lists != Lists::none)
@@ -238,7 +255,10 @@ bool is_section(const Schema& schema, std::string_view name) {
   std::vector<std::string> near = names;
   if (!schema.rows.empty()) near.push_back(schema.rows);
   std::string hint = "the sections are " + listed(names);
-  if (const auto nearest = nearest_name(name, near)) {
+  const auto foreign = std::ranges::find(schema.foreign, name, &Section::name);
+  if (foreign != schema.foreign.end()) {
+    hint = foreign->meaning;
+  } else if (const auto nearest = nearest_name(name, near)) {
     hint = fmt::format("did you mean {}?", *nearest == schema.rows ? "[[" + *nearest + "]]" : "[" + *nearest + "]");
   } else if (const Key* key = key_named(schema, name)) {
     hint = fmt::format("'{}' is a key of [{}]", name, key->section);

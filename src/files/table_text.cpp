@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text_layout.hpp"
+
 namespace lucy::files {
 
 namespace {
@@ -26,12 +28,6 @@ constexpr int most_decimals = 15;  // of a double near one
 int leading_power(double value, int significant_digits) {
   const std::string text = fmt::format("{:.{}e}", value, significant_digits - 1);
   return std::stoi(text.substr(text.find('e') + 1));
-}
-
-std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
-  return text;
 }
 
 std::string not_finite(double value) { return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"; }
@@ -65,65 +61,20 @@ std::string plain_with_error(double value, double error) {
   return fmt::format("{}({:.0f})", fixed(std::round(value / unit) * unit, 0), std::round(error / unit) * unit);
 }
 
-/// Columns of text, each as wide as its widest cell; the first `left_aligned` ones and the last start at the left.
-class TextTable {
- public:
-  TextTable(std::vector<std::string> header, std::size_t left_aligned) : left_aligned_(left_aligned) {
-    add(std::move(header));
-  }
-  void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
-
-  std::vector<std::string> lines() const {
-    std::vector<std::size_t> width(lines_.front().size(), 0);
-    for (const auto& cells : lines_)
-      for (std::size_t i = 0; i < cells.size(); ++i) width[i] = std::max(width[i], cells[i].size());
-    std::vector<std::string> result;
-    for (const auto& cells : lines_) {
-      std::string line;
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (i > 0) line += "  ";
-        const bool left = i < left_aligned_ || i + 1 == cells.size();
-        line += left ? fmt::format("{:<{}}", cells[i], width[i]) : fmt::format("{:>{}}", cells[i], width[i]);
-      }
-      line.erase(line.find_last_not_of(' ') + 1);
-      result.push_back(std::move(line));
-    }
-    return result;
-  }
-
- private:
-  std::vector<std::vector<std::string>> lines_;
-  std::size_t left_aligned_;
-};
-
 /// The largest of N independent exponentially distributed energies (two dimensions) carries this part on average.
 double expected_largest_share(std::int64_t particles) {
   const auto count = static_cast<double>(std::max<std::int64_t>(particles, 2));
   return (std::log(count) + std::numbers::egamma) / count;
 }
 
-std::string state_text(std::int64_t particles, double energy_per_particle, double strain_rate) {
-  return fmt::format("N = {}, E/N = {}, rate {}", particles, format_plain(energy_per_particle),
-                     format_plain(strain_rate));
+std::string point_text(std::int64_t particles, double energy_per_particle, double strain_rate) {
+  return fmt::format("{}, rate {}", state_text(particles, energy_per_particle), format_plain(strain_rate));
 }
 
 std::string published_text(const ComparedCell& cell) {
   if (!(cell.last_digit > 0.0)) return format_plain(cell.published);
   return fixed(cell.published,
                std::clamp(static_cast<int>(std::ceil(-std::log10(cell.last_digit) - 1e-9)), 0, most_decimals));
-}
-
-/// Lines of at most 120 columns; all but the first start with blanks as wide as `prefix`.
-std::string wrapped(const std::string& prefix, std::string_view text) {
-  constexpr std::size_t columns = 120;
-  std::string result = prefix;
-  while (prefix.size() + text.size() > columns) {
-    std::size_t end = text.rfind(' ', columns - prefix.size());
-    if (end == std::string_view::npos) end = std::min(text.find(' '), text.size());
-    result += fmt::format("{}\n{:{}}", text.substr(0, end), "", prefix.size());
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return result + std::string(text) + '\n';
 }
 
 /// Reasons of misprints, numbered in the order of their first appearance.
@@ -222,13 +173,7 @@ std::string format_table(std::span<const TableRow> rows) {
     table.add(std::move(cells));
   }
 
-  std::string text;
-  const auto lines = table.lines();
-  const std::size_t width = std::ranges::max(lines, {}, &std::string::size).size();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    text += lines[i] + '\n';
-    if (i == 0) text += std::string(width, '-') + '\n';
-  }
+  std::string text = table.text();
   text +=
       "\nIn parentheses one standard error, in units of the last digits: blocking of each replica's series, pooled "
       "over\n"
@@ -247,7 +192,7 @@ std::string format_table(std::span<const TableRow> rows) {
         "which never becomes steady.\n";
   for (const TableRow& row : rows)
     if (row.status == cases::RowStatus::failed)
-      text += fmt::format("failed: {}{}{}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate),
+      text += fmt::format("failed: {}{}{}\n", point_text(row.particles, row.energy_per_particle, row.strain_rate),
                           row.failure.empty() ? "" : ": ", row.failure);
   return text;
 }
@@ -258,26 +203,25 @@ std::string format_comparison(const Comparison& comparison) {
   Footnotes footnotes;
   for (const auto& row : comparison.rows)
     for (const ComparedCell& cell : row.cells)
-      table.add(
-          {fmt::format("  {}", cases::compared_quantities[cell.quantity]), format_with_error(cell.ours, cell.our_error),
-           published_text(cell), format_plain(cell.published_error, 2),
-           std::isnan(cell.difference) ? "nan" : fmt::format("{:+.1f}", cell.difference), remark(cell, footnotes)});
+      table.add({fmt::format("  {}", cases::compared_quantities[cell.quantity]),
+                 format_with_error(cell.ours, cell.our_error), published_text(cell),
+                 format_plain(cell.published_error, 2), signed_errors(cell.difference), remark(cell, footnotes)});
   const auto lines = table.lines();
   std::size_t next = 1;
   if (!comparison.rows.empty()) text += lines.front() + '\n';
   for (const auto& row : comparison.rows) {
     text += fmt::format("{}; total time ours {}, published {}{}\n",
-                        state_text(row.particles, row.energy_per_particle, row.strain_rate), format_plain(row.our_time),
+                        point_text(row.particles, row.energy_per_particle, row.strain_rate), format_plain(row.our_time),
                         format_plain(row.published_time), row.instability_region ? "; instability region" : "");
     for (std::size_t i = 0; i < row.cells.size(); ++i) text += lines[next++] + '\n';
   }
 
   if (!comparison.only_ours.empty()) text += "\nOnly in our table:\n";
   for (const auto& row : comparison.only_ours)
-    text += fmt::format("  {}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate));
+    text += fmt::format("  {}\n", point_text(row.particles, row.energy_per_particle, row.strain_rate));
   if (!comparison.only_published.empty()) text += "\nOnly in the published table:\n";
   for (const auto& row : comparison.only_published)
-    text += fmt::format("  {}\n", state_text(row.particles, row.energy_per_particle, row.strain_rate));
+    text += fmt::format("  {}\n", point_text(row.particles, row.energy_per_particle, row.strain_rate));
   if (!footnotes.texts().empty()) text += '\n';
   for (const auto& footnote : footnotes.texts())
     text += wrapped(fmt::format("[{}] ", footnotes.number(footnote)), footnote);

@@ -18,14 +18,14 @@ PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const pairs::ClusterList
   const pairs::Pass<D, Sum> pass{position, {}, force};
   const auto sums = pairs::traverse<D>(list, images, kernel.range(), pass, Sum{kernel}, team);
   PairTotals<D> totals;
-  if constexpr (wanted == Wanted::everything) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  totals.potential_energy = unknown;
+  if constexpr (wanted != Wanted::shear_stress) {
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b <= a; ++b) totals.virial(a, b) = totals.virial(b, a) = sums[a * (a + 1) / 2 + b];
     }
-    totals.potential_energy = sums[Sum::virials];
+    if constexpr (wanted == Wanted::everything) totals.potential_energy = sums[Sum::virials];
   } else {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    totals.potential_energy = unknown;
     totals.virial.setConstant(unknown);
     if constexpr (D > 1) totals.virial(0, 1) = totals.virial(1, 0) = sums[0];
   }
@@ -38,9 +38,15 @@ template <int D>
 PairTotals<D> lucy_forces(const kernel::Lucy<D>& kernel, const pairs::ClusterList<D>& list,
                           const pairs::ImageTable<D>& images, const std::array<const double*, D>& position,
                           const std::array<double*, D>& force, Wanted wanted, const Team& team) {
-  return wanted == Wanted::everything
-             ? sum_forces<D, Wanted::everything>(kernel, list, images, position, force, team)
-             : sum_forces<D, Wanted::shear_stress>(kernel, list, images, position, force, team);
+  switch (wanted) {
+    case Wanted::shear_stress:
+      return sum_forces<D, Wanted::shear_stress>(kernel, list, images, position, force, team);
+    case Wanted::stress:
+      return sum_forces<D, Wanted::stress>(kernel, list, images, position, force, team);
+    case Wanted::everything:
+      break;
+  }
+  return sum_forces<D, Wanted::everything>(kernel, list, images, position, force, team);
 }
 
 template PairTotals<1> lucy_forces<1>(const kernel::Lucy<1>&, const pairs::ClusterList<1>&, const pairs::ImageTable<1>&,

@@ -1,14 +1,16 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The cost of a sweep before it is run: particle-steps from the input, the speed from a fifth of a second of the real
-// thing on as many threads as the sweep would use.
+// The cost of a run before it is run: particle-steps from the input, the speed from a fifth of a second of the real
+// thing on as many threads as the run would use.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,9 +18,12 @@
 #include <vector>
 
 #include "lucy/archive.hpp"
+#include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/table_text.hpp"
 #include "program/commands.hpp"
+#include "program/couette_point.hpp"
+#include "program/green_kubo_point.hpp"
 #include "program/prediction.hpp"
 
 namespace lucy::program {
@@ -41,7 +46,19 @@ std::string_view thermostat_name(motion::Thermostat thermostat) {
   return "unknown";
 }
 
-void print_rows(const files::SweepInput& input) {
+void print_table(const std::vector<std::vector<std::string>>& table) {
+  std::vector<std::size_t> widths(table.front().size(), 0);
+  for (const auto& cells : table)
+    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
+  for (const auto& cells : table) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      line += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", cells[i], widths[i]);
+    fmt::print("{}\n", line);
+  }
+}
+
+std::vector<std::vector<std::string>> rows_of(const files::SweepInput& input) {
   std::vector<std::vector<std::string>> table = {
       {"", "N", "E/N", "rate", "thermostat", "step", "equilibration", "duration", "replicas"}};
   for (std::size_t i = 0; i < input.points.size(); ++i) {
@@ -54,15 +71,25 @@ void print_rows(const files::SweepInput& input) {
                      std::string(thermostat_name(point.thermostat)), format_plain(point.step),
                      format_plain(point.equilibration), duration, fmt::format("{}", point.replicas)});
   }
-  std::vector<std::size_t> widths(table.front().size(), 0);
-  for (const auto& cells : table)
-    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
-  for (const auto& cells : table) {
-    std::string line;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      line += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", cells[i], widths[i]);
-    fmt::print("{}\n", line);
+  return table;
+}
+
+std::vector<std::vector<std::string>> rows_of(const files::GreenKuboInput& input) {
+  std::vector<std::vector<std::string>> table = {{"", "N", "E/N", "integrator", "step", "equilibration", "duration",
+                                                  "replicas", "samples every", "correlated to", "blocks"}};
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const auto& point = input.points[i];
+    const double interval = cases::sample_interval(point);
+    std::string_view integrator;
+    for (const auto& [name, value] : motion::integrator_names)
+      if (value == point.integrator) integrator = name;
+    table.push_back({fmt::format("{}", i + 1), fmt::format("{}", point.particles),
+                     format_plain(point.energy_per_particle), std::string(integrator), format_plain(point.step),
+                     format_plain(point.equilibration), format_plain(point.duration), fmt::format("{}", point.replicas),
+                     format_plain(interval), format_plain(interval * static_cast<double>(cases::lag_count(point) - 1)),
+                     fmt::format("{}", point.replicas * cases::block_count(point))});
   }
+  return table;
 }
 
 /// Keys that are set but that no row makes use of, and what would.
@@ -93,20 +120,38 @@ std::vector<std::string> keys_without_effect(const std::vector<cases::CouettePoi
   return sentences;
 }
 
+/// A point as it would be run, and the part of it that is run here.
+struct Planned {
+  std::unique_ptr<StatePoint> point;
+  std::unique_ptr<StatePoint> measurable;
+};
+
+Planned planned(const cases::CouettePoint& point) {
+  cases::CouettePoint measurable = point;
+  measurable.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
+  measurable.frame_interval = 0.0;
+  measurable.particles = std::min(point.particles, most_particles);
+  return {std::make_unique<CouetteStatePoint>(point, "", files::H5mdAuthorship{}),
+          std::make_unique<CouetteStatePoint>(measurable, "", files::H5mdAuthorship{})};
+}
+
+Planned planned(const cases::GreenKuboPoint& point) {
+  cases::GreenKuboPoint measurable = point;
+  measurable.preparation = 0.0;  // what takes long is at rest
+  measurable.equilibration = 0.0;
+  measurable.frame_interval = 0.0;
+  measurable.particles = std::min(point.particles, most_particles);
+  return {std::make_unique<GreenKuboStatePoint>(point, "", files::H5mdAuthorship{}),
+          std::make_unique<GreenKuboStatePoint>(measurable, "", files::H5mdAuthorship{})};
+}
+
 struct Measurement {
   double speed = 0.0;        ///< particle-steps per second of one task
   double state_bytes = 0.0;  ///< of a checkpoint, per particle
 };
 
-cases::CouettePoint measurable(cases::CouettePoint point) {
-  point.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
-  point.frame_interval = 0.0;
-  point.particles = std::min(point.particles, most_particles);
-  return point;
-}
-
 /// Runs the start of a measurable `point` on `copies` threads at once, each copy with `threads_inside`.
-Measurement measure(const cases::CouettePoint& point, int copies, int threads_inside) {
+Measurement measure(const StatePoint& point, int copies, int threads_inside) {
   std::atomic<double> speeds = 0.0;
   std::atomic<double> bytes = 0.0;
   {
@@ -114,20 +159,20 @@ Measurement measure(const cases::CouettePoint& point, int copies, int threads_in
     for (int copy = 0; copy < copies; ++copy)
       threads.emplace_back([&, copy] {
         try {
-          cases::CouetteRun run(point, copy, threads_inside);
-          run.advance_one_sample();  // the first one finds cold caches
+          const auto run = point.start(copy, threads_inside);
+          run->advance();  // the first one finds cold caches
           const auto begin = Clock::now();
           double seconds = 0.0;
           int intervals = 0;
           while (seconds < measured_seconds) {
-            run.advance_one_sample();
+            run->advance();
             ++intervals;
             seconds = std::chrono::duration<double>(Clock::now() - begin).count();
           }
-          speeds += intervals * interval_cost(point) / seconds;
+          speeds += intervals * point.interval_cost() / seconds;
           ArchiveWriter archive;
-          run.save(archive);
-          bytes = static_cast<double>(archive.bytes().size()) / static_cast<double>(point.particles);
+          run->save(archive);
+          bytes = static_cast<double>(archive.bytes().size()) / static_cast<double>(point.particles());
         } catch (const std::exception&) {
           // A point that fails, or does not fit into memory, has no speed; running it will tell why.
         }
@@ -143,56 +188,82 @@ std::string count_text(double count) {
   return fmt::format("{} billion", format_plain(count / 1e9, 3));
 }
 
-/// What a sweep writes, in bytes.
+/// What a run writes, in bytes.
 struct DiskUse {
   double results = 0.0;
   double checkpoints = 0.0;  ///< removed at the end
 };
 
+constexpr double picture_bytes = 2.5e5;
+constexpr double hdf5_bytes = 22e3;  // what it needs itself for one replica
+
+/// Position, velocity and momentum of `duration`'s frames, and what is kept of them while it runs.
+void add_frames(DiskUse& use, std::int64_t particles, double frame_interval, double duration) {
+  const double frames = frame_interval > 0.0 ? 1.0 + duration / frame_interval : 0.0;
+  use.results += frames * static_cast<double>(particles) * 48.0;
+  use.checkpoints += frames * static_cast<double>(particles) * 32.0;
+}
+
 DiskUse predict_disk_use(const files::SweepInput& input, double state_bytes, bool at_most) {
-  DiskUse use{2.5e5, 0.0};  // the plot
+  DiskUse use{picture_bytes, 0.0};
   for (const auto& point : input.points) {
     const auto durations = recorded_durations(point);
     const double duration = at_most ? durations.back() : durations.front();
     const double samples = duration / (cases::sample_steps(point) * point.step);
-    const double frames = point.frame_interval > 0.0 ? 1.0 + duration / point.frame_interval : 0.0;
-    const auto particles = static_cast<double>(point.particles);
     constexpr double sample_bytes = sizeof(cases::Sample);
-    // Beside the samples: their step and time; position, velocity and momentum of a frame; what HDF5 needs itself.
-    use.results += point.replicas * (samples * (sample_bytes + 16.0) + 22e3) + frames * particles * 48.0;
+    // Beside the samples: their step and time.
+    use.results += point.replicas * (samples * (sample_bytes + 16.0) + hdf5_bytes);
     use.checkpoints +=
-        2.0 * point.replicas * (particles * state_bytes + samples * sample_bytes) + frames * particles * 32.0;
+        2.0 * point.replicas * (static_cast<double>(point.particles) * state_bytes + samples * sample_bytes);
+    add_frames(use, point.particles, point.frame_interval, duration);
   }
   return use;
 }
 
-}  // namespace
+DiskUse predict_disk_use(const files::GreenKuboInput& input, double state_bytes, bool /*at_most*/) {
+  DiskUse use{2.0 * picture_bytes, 0.0};
+  for (const auto& point : input.points) {
+    const auto lags = static_cast<double>(cases::lag_count(point));
+    const double samples = point.duration / cases::sample_interval(point);
+    const double intervals = point.duration / (static_cast<double>(cases::interval_steps(point)) * point.step);
+    constexpr double interval_bytes = sizeof(cases::EquilibriumSample);
+    const double series = point.series ? samples * sizeof(cases::StressSample) : 0.0;
+    const double block = lags * 24.0 * static_cast<double>(cases::stress_correlations + point.pairs.size()) +
+                         4.0 * static_cast<double>(cases::block_samples(point));
+    use.results += point.replicas * (intervals * (interval_bytes + 16.0) + series + hdf5_bytes) + lags * 300.0;
+    use.checkpoints += 2.0 * point.replicas *
+                       (static_cast<double>(point.particles) * state_bytes + intervals * interval_bytes + series +
+                        static_cast<double>(cases::block_count(point)) * block);
+    add_frames(use, point.particles, point.frame_interval, point.duration);
+  }
+  return use;
+}
 
-int check(const InputRequest& request) {
-  const files::SweepInput input = files::read_sweep(request.input, request.overrides);
+template <class Input>
+int predict(const Input& input, const std::vector<std::string>& idle_keys) {
   const int threads = input.threads > 0 ? input.threads : available_cores();
   fmt::print("{}{}{} point{}, {} thread{}:\n\n", input.title, input.title.empty() ? "" : "\n", input.points.size(),
              input.points.size() == 1 ? "" : "s", threads, threads == 1 ? "" : "s");
-  print_rows(input);
-  const auto idle_keys = keys_without_effect(input.points);
+  print_table(rows_of(input));
   if (!idle_keys.empty()) fmt::print("\n{}\n", fmt::join(idle_keys, "\n"));
 
-  std::optional<cases::CouettePoint> small_point;
-  std::optional<cases::CouettePoint> large_point;
+  std::unique_ptr<StatePoint> small_point;
+  std::unique_ptr<StatePoint> large_point;
   bool open_ended = false;
   std::vector<double> small_least;
   std::vector<double> small_most;
   double large_least = 0.0;
   double large_most = 0.0;
-  for (const auto& point : input.points) {
-    const auto durations = recorded_durations(point);
-    open_ended = open_ended || durations.size() > 1;
-    const double least = static_cast<double>(sample_intervals(point, durations.front())) * interval_cost(point);
-    const double most = static_cast<double>(sample_intervals(point, durations.back())) * interval_cost(point);
-    const bool large = is_large(point);
+  for (const auto& settings : input.points) {
+    auto [point, measurable] = planned(settings);
+    const auto milestones = point->milestones();
+    open_ended = open_ended || milestones.size() > 1;
+    const double least = static_cast<double>(milestones.front()) * point->interval_cost();
+    const double most = static_cast<double>(milestones.back()) * point->interval_cost();
+    const bool large = is_large(point->particles());
     auto& example = large ? large_point : small_point;
-    if (!example) example = measurable(point);
-    for (int replica = 0; replica < point.replicas; ++replica) {
+    if (!example) example = std::move(measurable);
+    for (int replica = 0; replica < point->replicas(); ++replica) {
       if (large) {
         large_least += least;
         large_most += most;
@@ -228,8 +299,8 @@ int check(const InputRequest& request) {
                measured.speed > 0.0 ? format_plain(1e9 / measured.speed, 3) : "unknown", how, particles,
                busy == 1 ? "1 thread" : fmt::format("{} threads", busy));
   };
-  if (small_point) say_speed(small, small_point->particles, copies, "one replica on each thread");
-  if (large_point) say_speed(large, large_point->particles, threads, "one replica on all threads");
+  if (small_point) say_speed(small, small_point->particles(), copies, "one replica on each thread");
+  if (large_point) say_speed(large, large_point->particles(), threads, "one replica on all threads");
   fmt::print("wall time: about {}\n",
              span(duration_text(seconds(small_least, large_least)), duration_text(seconds(small_most, large_most))));
   const double state_bytes = std::max(small.state_bytes, large.state_bytes);
@@ -239,6 +310,24 @@ int check(const InputRequest& request) {
              span(size_text(least.results), size_text(most.results)),
              span(size_text(least.checkpoints), size_text(most.checkpoints)));
   return 0;
+}
+
+/// A file with a [correlation] section is one of green-kubo.
+InputKind kind_of(const std::filesystem::path& file) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto first = line.find_first_not_of(" \t"); first != std::string::npos)
+      if (line.compare(first, 13, "[correlation]") == 0) return InputKind::green_kubo;
+  return InputKind::sweep;
+}
+
+}  // namespace
+
+int check(const InputRequest& request, std::optional<InputKind> kind) {
+  if (kind.value_or(kind_of(request.input)) == InputKind::green_kubo)
+    return predict(files::read_green_kubo(request.input, request.overrides), {});
+  const files::SweepInput input = files::read_sweep(request.input, request.overrides);
+  return predict(input, keys_without_effect(input.points));
 }
 
 }  // namespace lucy::program

@@ -11,9 +11,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +41,10 @@ constexpr std::string_view short_help =
     "Usage: lucy COMMAND ...\n"
     "\n"
     "  lucy sweep INPUT [--out DIR] [--set key=value]...   run a table of shear viscosities\n"
-    "  lucy check INPUT [--set key=value]...               say what that would do and cost\n"
+    "  lucy green-kubo INPUT [--out DIR] [--set ...]...    viscosities from equilibrium fluctuations\n"
+    "  lucy check INPUT [--set key=value]...               say what either would do and cost\n"
     "  lucy compare TABLE --with NAME                      a table beside a published one\n"
+    "  lucy viscosity SWEEP... GREEN-KUBO                  both routes and print side by side\n"
     "  lucy explain [KEY]                                  the keys of an input file\n"
     "\n"
     "A first one: lucy sweep inputs/quick.toml\n"
@@ -146,7 +152,7 @@ int run_program(int argument_count, const char* const* argument_values) {
   }
 
   CLI::App program(
-      "Lucy: molecular dynamics of the Lucy fluid out of equilibrium.\n"
+      "Lucy: molecular dynamics of the Lucy fluid, out of equilibrium and at rest.\n"
       "Shear viscosities with error bars, after Posch, Hoover and Kum, Phys. Rev. E 52, 1711 (1995).",
       "lucy");
   program.require_subcommand(1);
@@ -156,6 +162,7 @@ int run_program(int argument_count, const char* const* argument_values) {
       "\nExamples:\n"
       "  lucy sweep inputs/quick.toml\n"
       "  lucy compare runs/quick/table.csv --with posch1995_table2\n"
+      "  lucy green-kubo inputs/posch1995_green_kubo.toml\n"
       "  lucy explain run\n"
       "\nExit codes: 0 done, 1 ran but failed (or a comparison disagreed), 2 bad input or usage.");
 
@@ -186,15 +193,63 @@ int run_program(int argument_count, const char* const* argument_values) {
       "  lucy sweep inputs/quick.toml --set run.replicas=4 --set shear.strain_rate=[0.3,0.7] --out runs/mine\n"
       "  lucy sweep inputs/posch1995_table2.toml --set run.step=0.005 --out runs/paper_step");
 
+  auto* green_kubo_command =
+      program.add_subcommand("green-kubo", "Viscosities from the stress fluctuations at equilibrium");
+  add_input(green_kubo_command);
+  green_kubo_command->get_option("INPUT")->required(false);
+  SeriesRequest series;
+  std::string series_file;
+  std::string difference;
+  std::string pxx;
+  std::string pyy;
+  double length = 0.0;
+  double cutoff = 0.0;
+  bool no_pictures = false;
+  green_kubo_command->add_flag("--no-pictures", no_pictures, "Do not draw");
+  const auto from_series = [&](CLI::Option* option, const char* unit) {
+    return option->type_name(unit)->group("Stresses that were sampled elsewhere, instead of INPUT");
+  };
+  auto* series_option = from_series(
+      green_kubo_command->add_option("--from-series", series_file, "File of columns, one row per sample"), "FILE");
+  const std::vector<CLI::Option*> series_options = {
+      from_series(green_kubo_command->add_option("--interval", series.interval, "Time between rows"), "TIME"),
+      from_series(green_kubo_command->add_option("--volume", series.volume, "Volume V (in two dimensions, area)"), "V"),
+      from_series(green_kubo_command->add_option("--temperature", series.temperature, "kT"), "KT"),
+      from_series(green_kubo_command->add_option("--pxy", series.pxy, "Column of Pxy, name or number; default: pxy"),
+                  "COLUMN"),
+      from_series(green_kubo_command->add_option("--pxx", pxx, "Column of Pxx; default: pxx"), "COLUMN"),
+      from_series(green_kubo_command->add_option("--pyy", pyy, "Column of Pyy; default: pyy"), "COLUMN"),
+      from_series(
+          green_kubo_command->add_option("--difference", difference, "Column of (Pxx - Pyy)/2, instead of both"),
+          "COLUMN"),
+      from_series(green_kubo_command->add_option("--length", length, "Longest time that is correlated"), "TIME"),
+      from_series(green_kubo_command->add_option("--cutoff", cutoff, "Cut-off of the integral; default: by the rule"),
+                  "TIME")};
+  green_kubo_command->footer(
+      "\nInterrupted, the same command resumes and ends with the same bits.\n"
+      "\nExamples:\n"
+      "  lucy green-kubo inputs/posch1995_green_kubo.toml\n"
+      "  lucy green-kubo inputs/posch1995_green_kubo.toml --set correlation.diffusion=true --out runs/diffusion\n"
+      "  lucy green-kubo --from-series stress.dat --interval 0.2 --volume 1024 --temperature 0.539");
+
   auto* check_command = program.add_subcommand("check", "Validate an input and predict its cost; run nothing");
   add_input(check_command);
   check_command->footer("\nExample:\n  lucy check inputs/posch1995_table1.toml --set run.replicas=8");
 
+  const std::map<std::string, InputKind> kinds = {{"sweep", InputKind::sweep}, {"green-kubo", InputKind::green_kubo}};
+  std::optional<InputKind> kind;
+  const auto add_kind = [&](CLI::App* command, const char* text) {
+    command->add_option("--for", kind, text)->transform(CLI::CheckedTransformer(kinds))->type_name("COMMAND");
+  };
+  add_kind(check_command, "sweep or green-kubo; default: green-kubo for a file with a [correlation] section");
+
   auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
   std::string filter;
+  add_kind(explain_command, "sweep (the default) or green-kubo");
   explain_command->add_option("KEY", filter, "A section (run) or a key (run.step); default: all of them");
   explain_command->set_help_flag("-h,--help", "This text");
-  explain_command->footer("\nExamples:\n  lucy explain\n  lucy explain shear\n  lucy explain run.step");
+  explain_command->footer(
+      "\nExamples:\n  lucy explain\n  lucy explain run.step\n  lucy explain --for green-kubo correlation");
 
   auto* compare_command = program.add_subcommand("compare", "Lay a table beside a published one");
   std::string table;
@@ -213,6 +268,22 @@ int run_program(int argument_count, const char* const* argument_values) {
       "  lucy compare runs/posch1995_table1/table.csv --with posch1995_table1\n"
       "  lucy compare runs/mine --with runs/other/table.csv");
 
+  auto* viscosity_command = program.add_subcommand(
+      "viscosity", "The viscosity by every route: a sweep at zero rate, Green-Kubo, print, weak scattering");
+  std::vector<std::filesystem::path> results;
+  viscosity_command
+      ->add_option(
+          "RESULTS", results,
+          "Directory of a sweep (several may be given), or its table.csv; last the directory of a Green-Kubo run, "
+          "or its viscosity.csv")
+      ->type_name("SWEEP... GREEN-KUBO")
+      ->required();
+  viscosity_command->add_option("--out", out, "Directory of the results; default: that of the Green-Kubo run")
+      ->type_name("DIR");
+  viscosity_command->set_help_flag("-h,--help", "This text");
+  viscosity_command->footer(
+      "\nExample:\n  lucy viscosity runs/posch1995_table1 runs/posch1995_table2 runs/posch1995_green_kubo");
+
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants it
     program.parse(reversed);
@@ -226,11 +297,39 @@ int run_program(int argument_count, const char* const* argument_values) {
   return tell_errors([&] {
     request.input = input;
     if (!out.empty()) request.out = out;
-    for (const auto* command : {sweep_command, check_command})
+    for (const auto* command : {sweep_command, green_kubo_command, check_command, viscosity_command})
       if (out.empty() && command->count("--out") > 0) throw BadInput("--out is empty where a directory is expected");
     if (sweep_command->parsed()) return sweep(request);
-    if (check_command->parsed()) return check(request);
-    if (explain_command->parsed()) return explain(filter);
+    if (green_kubo_command->parsed()) {
+      if (series_option->count() == 0) {
+        for (const auto* option : series_options)
+          if (option->count() > 0) throw BadInput(fmt::format("{} needs --from-series", option->get_name()));
+        if (input.empty()) throw BadInput("lucy green-kubo needs INPUT, or --from-series FILE");
+        return green_kubo(request, !no_pictures);
+      }
+      if (!input.empty()) throw BadInput(fmt::format("--from-series takes no INPUT, but '{}' is given", input));
+      if (!request.overrides.empty()) throw BadInput("--set changes an INPUT, and --from-series has none");
+      for (std::size_t i = 0; i < 3; ++i)
+        if (series_options[i]->count() == 0)
+          throw BadInput(fmt::format("--from-series needs {}", series_options[i]->get_name()));
+      const auto given = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional(text); };
+      series.file = series_file;
+      series.difference = given(difference);
+      series.pxx = given(pxx);
+      series.pyy = given(pyy);
+      if (green_kubo_command->count("--length") > 0) series.length = length;
+      if (green_kubo_command->count("--cutoff") > 0) series.cutoff = cutoff;
+      series.out = request.out;
+      series.pictures = !no_pictures;
+      return green_kubo_series(series);
+    }
+    if (check_command->parsed()) return check(request, kind);
+    if (explain_command->parsed()) return explain(filter, kind.value_or(InputKind::sweep));
+    if (viscosity_command->parsed()) {
+      if (results.size() < 2)
+        throw BadInput("lucy viscosity needs the directory of a sweep and that of a Green-Kubo run, in this order");
+      return viscosity(std::span(results).first(results.size() - 1), results.back(), request.out);
+    }
     return compare(table, published);
   });
 }

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,43 @@ struct InputRequest {
 /// Runs every point of a sweep, or goes on with it, and writes table.csv and its companions (sweep.cpp).
 int sweep(const InputRequest& request);
 
-/// Says what a sweep would do and cost; writes nothing (check.cpp).
-int check(const InputRequest& request);
+/// Runs every state of a Green-Kubo input, or goes on with it, and writes viscosity.csv and its companions
+/// (green_kubo.cpp). `pictures`: draw them.
+int green_kubo(const InputRequest& request, bool pictures);
+
+/// A stress series that another program sampled.
+struct SeriesRequest {
+  std::filesystem::path file;
+  std::string pxy = "pxy";  ///< columns by name or number
+  std::optional<std::string> difference = {};
+  std::optional<std::string> pxx = {};
+  std::optional<std::string> pyy = {};
+  double interval = 0.0;  ///< between rows
+  double volume = 0.0;
+  double temperature = 0.0;
+  std::optional<double> length = {};
+  std::optional<double> cutoff = {};
+  std::optional<std::filesystem::path> out = {};  ///< default: runs/STEM
+  bool pictures = true;
+};
+
+/// The Green-Kubo estimators on such a series (green_kubo.cpp).
+int green_kubo_series(const SeriesRequest& request);
+
+/// The viscosities of sweeps extrapolated to zero rate beside those of a Green-Kubo run (viscosity.cpp); directories,
+/// or their table.csv and viscosity.csv. `out`: where the files go, default the Green-Kubo directory.
+int viscosity(std::span<const std::filesystem::path> sweeps, const std::filesystem::path& green_kubo,
+              const std::optional<std::filesystem::path>& out);
+
+/// The commands that read an input file.
+enum class InputKind { sweep, green_kubo };
+
+/// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, a file with a [correlation]
+/// section is one of green-kubo, any other one of a sweep.
+int check(const InputRequest& request, std::optional<InputKind> kind);
 
 /// Prints the keys of an input file (explain.cpp). `filter`: a section or a key, or empty.
-int explain(const std::string& filter);
+int explain(const std::string& filter, InputKind kind);
 
 /// A table.csv, or the directory that holds it, beside a published table: by name, or a file (compare.cpp).
 int compare(const std::filesystem::path& table, const std::string& published);

@@ -32,16 +32,17 @@ std::string first_difference(const std::string& there, const std::string& here) 
 
 }  // namespace
 
-DirectoryState look_at_directory(const std::filesystem::path& directory, const std::string& resolved_input) {
+DirectoryState look_at_directory(const std::filesystem::path& directory, const std::string& resolved_input,
+                                 const std::string& kind, const std::string& results_file) {
   std::error_code error;
   const auto status = std::filesystem::status(directory, error);
   if (status.type() == std::filesystem::file_type::not_found) return DirectoryState::fresh;
   if (error) throw BadInput(fmt::format("cannot look at {}: {}", directory.string(), error.message()));
   if (!std::filesystem::is_directory(status))
     throw BadInput(
-        fmt::format("{} is a file: the results need a directory that is new, empty, or holds this same sweep "
+        fmt::format("{} is a file: the results need a directory that is new, empty, or holds this same {} "
                     "(choose one with --out)",
-                    directory.string()));
+                    directory.string(), kind));
   const auto input = directory / "input.toml";
   if (!std::filesystem::exists(input, error)) {
     std::filesystem::directory_iterator entries(directory, error);
@@ -50,20 +51,20 @@ DirectoryState look_at_directory(const std::filesystem::path& directory, const s
       const auto name = entry.path().filename();
       if (name != ".lock" && name != files::temporary_beside(input).filename())
         throw BadInput(
-            fmt::format("{} is not empty and holds no sweep ({} is there, input.toml is not): choose a "
+            fmt::format("{} is not empty and holds no {} ({} is there, input.toml is not): choose a "
                         "directory that is new or empty with --out",
-                        directory.string(), name.string()));
+                        directory.string(), kind, name.string()));
     }
     return DirectoryState::fresh;
   }
   const std::string there = files::read_text_file(input);
   if (there != resolved_input)
     throw BadInput(
-        fmt::format("{} holds the sweep of another input (its input.toml: {}): choose another directory with "
+        fmt::format("{} holds the results of another input (its input.toml: {}): choose another directory with "
                     "--out",
                     directory.string(), first_difference(there, resolved_input)));
-  return std::filesystem::exists(directory / "table.csv", error) ? DirectoryState::finished
-                                                                 : DirectoryState::unfinished;
+  return std::filesystem::exists(directory / results_file, error) ? DirectoryState::finished
+                                                                  : DirectoryState::unfinished;
 }
 
 void make_directory(const std::filesystem::path& directory) {

@@ -15,7 +15,7 @@ namespace lucy::program {
 /// From this many particles on, a system runs alone with all threads inside; smaller ones run one replica per thread.
 inline constexpr std::int64_t large_system = 32768;
 
-inline bool is_large(const cases::CouettePoint& point) { return point.particles >= large_system; }
+inline bool is_large(std::int64_t particles) { return particles >= large_system; }
 
 /// The recorded durations per replica at which a point may end, increasing: `duration` alone, or with a
 /// target_relative_error its doubles up to maximum_duration (0: ten times `duration`). Whether to go on is decided at

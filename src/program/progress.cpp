@@ -58,7 +58,7 @@ int Console::width() const {
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-std::string status_line(const SweepState& state, double elapsed_seconds, int width) {
+std::string status_line(const RunState& state, double elapsed_seconds, int width) {
   const auto filled = static_cast<int>(std::clamp(state.fraction, 0.0, 1.0) * bar_width);
   const std::string bar = fmt::format("[{}{}]", std::string(static_cast<std::size_t>(filled), '#'),
                                       std::string(static_cast<std::size_t>(bar_width - filled), '-'));

@@ -38,7 +38,7 @@ class Console {
 
 /// "[####------]  41 %  2/5 points  N = 1024, E/N = 1, rate 0.1: viscosity 2.66(3)  1 min 05 s, 1 min 33 s left",
 /// shortened from the middle outwards until it fits.
-std::string status_line(const SweepState& state, double elapsed_seconds, int width);
+std::string status_line(const RunState& state, double elapsed_seconds, int width);
 
 /// Draws `line()` several times a second while it lives, and removes the line at its end. Does nothing where lines
 /// cannot be drawn anew.

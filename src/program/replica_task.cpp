@@ -54,11 +54,15 @@ ReplicaHistory read_history(const ReplicaFiles& files) {
   return history;
 }
 
-ReplicaTask::ReplicaTask(const cases::CouettePoint& point, int replica, int threads, ReplicaFiles files)
-    : point_(point), replica_(replica), threads_(threads), files_(std::move(files)), run_(point, replica, threads) {}
+ReplicaTask::ReplicaTask(const StatePoint& point, int number, int threads, ReplicaFiles files)
+    : point_(point),
+      number_(number),
+      threads_(threads),
+      files_(std::move(files)),
+      replica_(point.start(number, threads)) {}
 
 std::optional<std::string> ReplicaTask::take_up() {
-  if (files_.frames) frames_.emplace(*files_.frames, point_.particles);
+  if (files_.frames) frames_.emplace(*files_.frames, point_.particles());
   std::optional<std::string> told;
   if (const auto read = files::read_checkpoint(files_.checkpoint, files_.identity); read.payload) {
     try {
@@ -67,8 +71,8 @@ std::optional<std::string> ReplicaTask::take_up() {
       return told;
     } catch (const RunFailed& failure) {
       told = fmt::format("{} begins again, since the checkpoint {} could not be taken up: {}",
-                         fmt::format("replica {}", replica_ + 1), files_.checkpoint.string(), failure.what());
-      run_ = cases::CouetteRun(point_, replica_, threads_);
+                         fmt::format("replica {}", number_ + 1), files_.checkpoint.string(), failure.what());
+      replica_ = point_.start(number_, threads_);
       saved_intervals_ = -1;
       seconds_ = 0.0;
     }
@@ -82,29 +86,29 @@ std::optional<std::string> ReplicaTask::take_up() {
 void ReplicaTask::load(const std::vector<std::byte>& payload) {
   ArchiveReader archive(payload);
   const Head head = read_head(archive);
-  run_.load(archive);
+  replica_->load(archive);
   if (frames_) frames_->truncate(head.frames);
-  saved_intervals_ = run_.intervals_done();
+  saved_intervals_ = replica_->intervals_done();
   saved_stage_ = head.stage;
   seconds_ = head.seconds;
 }
 
 void ReplicaTask::record_frame() {
-  if (frames_ && run_.frame_due()) frames_->append(run_.frame());
+  if (frames_ && replica_->frame_due()) frames_->append(replica_->frame());
 }
 
 void ReplicaTask::checkpoint(std::int32_t stage) {
-  if (saved_intervals_ == run_.intervals_done() && saved_stage_ == stage) return;
+  if (saved_intervals_ == replica_->intervals_done() && saved_stage_ == stage) return;
   const auto begin = Clock::now();
   if (frames_) frames_->synchronise();
   ArchiveWriter archive;
   archive.put(stage);
   archive.put(frames_ ? frames_->count() : std::int64_t{0});
-  archive.put(run_.intervals_done());
+  archive.put(replica_->intervals_done());
   archive.put(seconds());
-  run_.save(archive);
+  replica_->save(archive);
   files::write_checkpoint(files_.checkpoint, archive.bytes(), files_.identity);
-  saved_intervals_ = run_.intervals_done();
+  saved_intervals_ = replica_->intervals_done();
   saved_stage_ = stage;
   last_checkpoint_ = Clock::now();
   seconds_to_write_ = seconds_between(begin, last_checkpoint_);

@@ -3,19 +3,20 @@
 //
 // One replica of one point with what it keeps on disk while it runs: its state in two generations, its frames.
 //
-//     payload of a checkpoint: stage (4 bytes), frames in the spool (8), sample intervals done (8),
-//                              wall seconds spent so far (8), then the state that CouetteRun saves
+//     payload of a checkpoint: stage (4 bytes), frames in the spool (8), intervals done (8), wall seconds spent so far
+//                              (8), then what the replica saves
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "lucy/cases/couette.hpp"
 #include "lucy/files/frame_spool.hpp"
+#include "program/experiment.hpp"
 
 namespace lucy::program {
 
@@ -29,7 +30,7 @@ struct ReplicaFiles {
 /// What is known of a replica from its newest valid checkpoint.
 struct ReplicaHistory {
   bool exists = false;
-  std::int32_t stage = 0;  ///< of recorded_durations (prediction.hpp), that it had been asked to reach
+  std::int32_t stage = 0;  ///< of StatePoint::milestones, that it had been asked to reach
   std::int64_t intervals_done = 0;
   std::vector<std::string> rejected;  ///< one sentence per generation that cannot be used
 };
@@ -39,14 +40,14 @@ ReplicaHistory read_history(const ReplicaFiles& files);
 class ReplicaTask {
  public:
   /// At the start of the run. Throws RunFailed when the point has no start.
-  ReplicaTask(const cases::CouettePoint& point, int replica, int threads, ReplicaFiles files);
+  ReplicaTask(const StatePoint& point, int number, int threads, ReplicaFiles files);
 
   /// Goes on from the newest checkpoint that can be used, else from the start. Returns what has to be told: one
   /// sentence when a valid checkpoint could not be taken up after all. Throws RunFailed when the disk refuses.
   std::optional<std::string> take_up();
 
-  /// One sample interval; throws RunFailed when the physics does not go on.
-  void advance() { run_.advance_one_sample(); }
+  /// One interval; throws RunFailed when the physics does not go on.
+  void advance() { replica_->advance(); }
 
   /// Records a frame when one is due. Throws RunFailed when the disk refuses.
   void record_frame();
@@ -63,18 +64,18 @@ class ReplicaTask {
   void stop_clock();
   double seconds() const;
 
-  const cases::CouetteRun& run() const { return run_; }
+  const Replica& replica() const { return *replica_; }
   const files::FrameSpool* frames() const { return frames_ ? &*frames_ : nullptr; }
 
  private:
   using Clock = std::chrono::steady_clock;
   void load(const std::vector<std::byte>& payload);
 
-  cases::CouettePoint point_;
-  int replica_;
+  const StatePoint& point_;
+  int number_;
   int threads_;
   ReplicaFiles files_;
-  cases::CouetteRun run_;
+  std::unique_ptr<Replica> replica_;
   std::optional<files::FrameSpool> frames_;
   std::int64_t saved_intervals_ = -1;
   std::int32_t saved_stage_ = -1;

@@ -17,8 +17,6 @@
 #include <utility>
 
 #include "lucy/errors.hpp"
-#include "lucy/files/input.hpp"
-#include "lucy/files/table_text.hpp"
 #include "program/prediction.hpp"
 #include "program/replica_task.hpp"
 
@@ -40,37 +38,30 @@ struct Measured {
   double speed() const { return seconds > 0.0 ? cost / seconds : 0.0; }
 };
 
-struct Replica {
+struct Runner {
   ReplicaFiles files;
   std::unique_ptr<ReplicaTask> task;
   std::atomic<std::int64_t> intervals_done = 0;
   std::atomic<bool> at_work = false;
-  std::atomic<bool> snapshot_wanted = false;
-  std::mutex snapshot_lock;
-  cases::CouetteRecord snapshot;
-
-  void take_snapshot() {
-    snapshot_wanted = false;
-    const std::scoped_lock lock(snapshot_lock);
-    snapshot = task->run().record();
-  }
+  std::atomic<bool> note_wanted = false;
 };
 
-struct Point {
-  cases::CouettePoint settings;
-  std::vector<double> durations;
+struct Entry {
+  StatePoint* point = nullptr;
+  std::vector<std::int64_t> milestones;
   double interval_cost = 0.0;
-  std::vector<std::unique_ptr<Replica>> replicas;
+  bool large = false;
+  std::vector<std::unique_ptr<Runner>> runners;
   std::atomic<std::int32_t> stage = 0;  // changed only while no replica is at work
   int on_their_way = 0;                 // replicas that have not arrived at this stage
   std::atomic<bool> failed = false;
   std::atomic<bool> done = false;
-  PointResult result;
 
-  double cost_left(const Replica& replica) const {
+  std::int64_t milestone() const { return milestones[static_cast<std::size_t>(stage.load())]; }
+
+  double cost_left(const Runner& runner) const {
     if (done) return 0.0;
-    const auto needed = sample_intervals(settings, durations[static_cast<std::size_t>(stage.load())]);
-    return static_cast<double>(std::max<std::int64_t>(0, needed - replica.intervals_done)) * interval_cost;
+    return static_cast<double>(std::max<std::int64_t>(0, milestone() - runner.intervals_done)) * interval_cost;
   }
 };
 
@@ -89,12 +80,6 @@ bool comes_later(const Assignment& a, const Assignment& b) {
   return key(a) < key(b);
 }
 
-std::string point_text(const cases::CouettePoint& point) {
-  files::SweepInput alone;
-  alone.points = {point};
-  return files::resolved_toml(alone);
-}
-
 }  // namespace
 
 std::string checkpoint_name(std::size_t point, int replica) {
@@ -107,14 +92,9 @@ std::string frames_name(std::size_t point, int replica) {
 
 std::string point_file_name(std::size_t point) { return fmt::format("point_{:03}.h5", point + 1); }
 
-std::string point_label(const cases::CouettePoint& point) {
-  return fmt::format("N = {}, E/N = {}, rate {}", point.particles, files::format_plain(point.energy_per_particle),
-                     files::format_plain(point.strain_rate));
-}
-
 struct Scheduler::Implementation {
   Settings settings;
-  std::vector<std::unique_ptr<Point>> points;
+  std::vector<std::unique_ptr<Entry>> points;
   bool resumes = false;
   double cost_before = 0.0;
 
@@ -141,44 +121,45 @@ struct Scheduler::Implementation {
     if (settings.say) settings.say(sentence);
   }
 
-  void add_point(const cases::CouettePoint& given) {
+  void add_point(StatePoint& given) {
     const std::size_t index = points.size();
-    auto point = std::make_unique<Point>();
-    point->settings = given;
-    point->durations = recorded_durations(given);
-    point->interval_cost = program::interval_cost(given);
-    const std::string text = point_text(given);
+    auto entry = std::make_unique<Entry>();
+    entry->point = &given;
+    entry->milestones = given.milestones();
+    entry->interval_cost = given.interval_cost();
+    entry->large = is_large(given.particles());
+    const std::string text = given.identity();
     std::int32_t stage = 0;
-    for (int number = 0; number < given.replicas; ++number) {
-      auto replica = std::make_unique<Replica>();
-      replica->files.checkpoint = settings.checkpoints / checkpoint_name(index, number);
+    for (int number = 0; number < given.replicas(); ++number) {
+      auto runner = std::make_unique<Runner>();
+      runner->files.checkpoint = settings.checkpoints / checkpoint_name(index, number);
       // The first replica stands for all in pictures.
-      if (given.frame_interval > 0.0 && number == 0)
-        replica->files.frames = settings.checkpoints / frames_name(index, number);
-      replica->files.identity = fmt::format("{}\nreplica {}\n{}", settings.build, number, text);
-      const ReplicaHistory history = read_history(replica->files);
+      if (given.records_frames() && number == 0)
+        runner->files.frames = settings.checkpoints / frames_name(index, number);
+      runner->files.identity = fmt::format("{}\nreplica {}\n{}", settings.build, number, text);
+      const ReplicaHistory history = read_history(runner->files);
       for (const auto& sentence : history.rejected)
         say(sentence + (history.exists ? "; the one before it is taken" : "; this replica begins again"));
       if (history.exists) {
         resumes = true;
-        replica->intervals_done = history.intervals_done;
-        // One replica beyond a duration proves that the point was sent on from there.
+        runner->intervals_done = history.intervals_done;
+        // One replica beyond a milestone proves that the point was sent on from there.
         stage = std::max(stage, history.stage);
       }
-      point->replicas.push_back(std::move(replica));
+      entry->runners.push_back(std::move(runner));
     }
-    point->stage = std::clamp<std::int32_t>(stage, 0, static_cast<std::int32_t>(point->durations.size()) - 1);
-    for (const auto& replica : point->replicas)
-      cost_before += static_cast<double>(replica->intervals_done) * point->interval_cost;
-    points.push_back(std::move(point));
+    entry->stage = std::clamp<std::int32_t>(stage, 0, static_cast<std::int32_t>(entry->milestones.size()) - 1);
+    for (const auto& runner : entry->runners)
+      cost_before += static_cast<double>(runner->intervals_done) * entry->interval_cost;
+    points.push_back(std::move(entry));
   }
 
-  /// Sends all replicas of a point towards its present stage; the lock is held.
+  /// Sends all replicas of a point towards its present milestone; the lock is held.
   void send(std::size_t index) {
-    Point& point = *points[index];
-    point.on_their_way = static_cast<int>(point.replicas.size());
-    for (std::size_t number = 0; number < point.replicas.size(); ++number) {
-      waiting.push_back({index, number, point.cost_left(*point.replicas[number])});
+    Entry& entry = *points[index];
+    entry.on_their_way = static_cast<int>(entry.runners.size());
+    for (std::size_t number = 0; number < entry.runners.size(); ++number) {
+      waiting.push_back({index, number, entry.cost_left(*entry.runners[number])});
       std::push_heap(waiting.begin(), waiting.end(), comes_later);
     }
   }
@@ -195,7 +176,7 @@ struct Scheduler::Implementation {
         return assignment;
       }
       if (at_work == 0) return std::nullopt;
-      // Whoever is at work may send a point on to its next duration. A signal wakes nobody: look now and then.
+      // Whoever is at work may send a point on to its next milestone. A signal wakes nobody: look now and then.
       changed.wait_for(hold, std::chrono::milliseconds(100));
     }
   }
@@ -217,7 +198,7 @@ struct Scheduler::Implementation {
     {
       const std::scoped_lock hold(lock);
       for (std::size_t index = 0; index < points.size(); ++index)
-        if (is_large(points[index]->settings) == large) send(index);
+        if (points[index]->large == large) send(index);
       if (waiting.empty()) return;
       workers = std::min<int>(workers, static_cast<int>(waiting.size()));
     }
@@ -235,71 +216,73 @@ struct Scheduler::Implementation {
       });
   }
 
-  /// Takes one replica to the present duration of its point. Throws what must end the whole sweep.
-  void work(Point& point, std::size_t index, std::size_t number, int threads_inside) {
-    Replica& replica = *point.replicas[number];
-    if (point.failed) return;
-    replica.at_work = true;
+  /// Takes one replica to the present milestone of its point. Throws what must end the whole run.
+  void work(Entry& entry, std::size_t index, std::size_t number, int threads_inside) {
+    Runner& runner = *entry.runners[number];
+    if (entry.failed) return;
+    runner.at_work = true;
     struct AtWork {
-      Replica& replica;
-      ~AtWork() { replica.at_work = false; }
-    } const at_work_here{replica};
+      Runner& runner;
+      ~AtWork() { runner.at_work = false; }
+    } const at_work_here{runner};
 
-    if (!replica.task) {
+    if (!runner.task) {
       try {
-        replica.task =
-            std::make_unique<ReplicaTask>(point.settings, static_cast<int>(number), threads_inside, replica.files);
+        runner.task =
+            std::make_unique<ReplicaTask>(*entry.point, static_cast<int>(number), threads_inside, runner.files);
       } catch (const RunFailed& failure) {
-        fail(point, number, failure.what());
+        fail(entry, number, failure.what());
         return;
       }
-      if (const auto told = replica.task->take_up()) say(fmt::format("{}: {}", point_label(point.settings), *told));
-      replica.intervals_done = replica.task->run().intervals_done();
+      if (const auto told = runner.task->take_up()) say(fmt::format("{}: {}", entry.point->label(), *told));
+      runner.intervals_done = runner.task->replica().intervals_done();
     }
-    ReplicaTask& task = *replica.task;
+    ReplicaTask& task = *runner.task;
     task.start_clock();
-    const bool arrived = advance_to_stage(point, replica, number);
+    const bool arrived = advance_to_milestone(entry, runner, number);
     task.stop_clock();
-    if (point.failed) {
-      replica.task.reset();
+    if (entry.failed) {
+      runner.task.reset();
       return;
     }
     if (!arrived) {
-      save_before_stopping(task, point.stage);
+      save_before_stopping(task, entry.stage);
       return;
     }
-    task.checkpoint(point.stage);
-    if (settings.watched) replica.take_snapshot();
+    task.checkpoint(entry.stage);
+    if (settings.watched) entry.point->note(static_cast<int>(number), task.replica());
     bool last = false;
     {
       const std::scoped_lock hold(lock);
-      last = --point.on_their_way == 0;
+      last = --entry.on_their_way == 0;
     }
-    if (last) judge(point, index);
+    if (last) conclude(entry, index);
   }
 
-  bool advance_to_stage(Point& point, Replica& replica, std::size_t number) {
-    ReplicaTask& task = *replica.task;
-    Measured& measured = is_large(point.settings) ? large_speed : small_speed;
-    const double duration = point.durations[static_cast<std::size_t>(point.stage.load())];
-    const std::int64_t needed = task.run().intervals_needed(duration);
+  bool advance_to_milestone(Entry& entry, Runner& runner, std::size_t number) {
+    ReplicaTask& task = *runner.task;
+    Measured& measured = entry.large ? large_speed : small_speed;
+    const std::int64_t needed = entry.milestone();
     auto before = Clock::now();
-    while (task.run().intervals_done() < needed) {
-      if (stopping() || point.failed) return false;
+    while (task.replica().intervals_done() < needed) {
+      if (stopping() || entry.failed) return false;
       try {
         task.advance();
       } catch (const RunFailed& failure) {
-        fail(point, number, failure.what());
+        fail(entry, number, failure.what());
         return false;
       }
       task.record_frame();
-      ++replica.intervals_done;
-      if (replica.snapshot_wanted.load(std::memory_order_relaxed)) replica.take_snapshot();
+      ++runner.intervals_done;
+      if (runner.note_wanted.load(std::memory_order_relaxed)) {
+        runner.note_wanted = false;
+        entry.point->note(static_cast<int>(number), task.replica());
+      }
       const double write = task.seconds_to_write();
       const double due = std::max(settings.checkpoint_interval, write > quick_to_write ? 100.0 * write : 0.0);
-      if (task.seconds_since_checkpoint() >= due) task.checkpoint(point.stage);
+      if (task.seconds_since_checkpoint() >= due) task.checkpoint(entry.stage);
       const auto now = Clock::now();
-      measured.cost += point.interval_cost;
+      measured.cost += entry.interval_cost;
       measured.seconds += std::chrono::duration<double>(now - before).count();
       before = now;
     }
@@ -310,77 +293,45 @@ struct Scheduler::Implementation {
     try {
       task.checkpoint(stage);
     } catch (const RunFailed&) {
-      // When the disk has already ended the sweep, its first complaint is the one to be heard.
+      // When the disk has already ended the run, its first complaint is the one to be heard.
       if (!fatal_set) throw;
     }
   }
 
-  void fail(Point& point, std::size_t number, const std::string& message) {
+  void fail(Entry& entry, std::size_t number, const std::string& message) {
     const std::scoped_lock hold(lock);
-    if (point.failed.exchange(true)) return;
-    point.result.row = cases::failed_row(
-        point.settings, point.settings.replicas > 1 ? fmt::format("replica {}: {}", number + 1, message) : message);
-    for (int replica = 0; replica < point.settings.replicas; ++replica) {
-      cases::ReplicaRow row = cases::replica_row(point.settings, replica, {});
-      row.energy_rescaled = not_a_number;
-      row.worst_energy_error = not_a_number;
-      point.result.replicas.push_back(row);
-    }
-    point.result.seconds = not_a_number;
-    point.done = true;
+    if (entry.failed.exchange(true)) return;
+    entry.point->fail(static_cast<int>(number), message);
+    entry.done = true;
     ++points_done;
   }
 
   /// All replicas of the point have arrived: it ends here, or goes on. No other thread touches the point.
-  void judge(Point& point, std::size_t index) {
-    std::vector<cases::CouetteRecord> records;
-    for (const auto& replica : point.replicas) records.push_back(replica->task->run().record());
-    const auto stage = static_cast<std::size_t>(point.stage.load());
-    const double duration = point.durations[stage];
-    cases::TableRow row = cases::summarize(point.settings, duration, records);
-    const auto& viscosity = row.estimates[cases::quantity("viscosity")];
-    // Negated, so that an error that is not known counts as one too large.
-    const bool wanting = !cases::target_reached(point.settings, viscosity);
-    if (wanting && stage + 1 < point.durations.size()) {
+  void conclude(Entry& entry, std::size_t index) {
+    std::vector<Arrived> arrived;
+    for (const auto& runner : entry.runners)
+      arrived.push_back({&runner->task->replica(), runner->task->frames(), runner->task->seconds()});
+    if (!entry.point->conclude(static_cast<std::size_t>(entry.stage.load()), arrived)) {
       const std::scoped_lock hold(lock);
-      ++point.stage;
+      ++entry.stage;
       send(index);
       changed.notify_all();
       return;
     }
-
-    PointResult result;
-    result.row = std::move(row);
-    std::vector<files::H5mdReplica> series;
-    for (std::size_t number = 0; number < point.replicas.size(); ++number) {
-      const ReplicaTask& task = *point.replicas[number]->task;
-      result.replicas.push_back(cases::replica_row(point.settings, static_cast<int>(number), records[number]));
-      result.seconds += task.seconds();
-      series.push_back({static_cast<int>(number), &records[number], task.run().intervals_needed(0.0), task.frames()});
-    }
-    // The file states the duration that was recorded; the sample interval stays that of the one asked for.
-    cases::CouettePoint recorded = point.settings;
-    recorded.sample_interval = cases::sample_steps(point.settings) * point.settings.step;
-    recorded.duration = duration;
-    files::write_h5md(settings.directory / point_file_name(index), recorded, series, settings.authorship);
-    point.result = std::move(result);
-    for (auto& replica : point.replicas) {
-      replica->task.reset();
-      const std::scoped_lock hold(replica->snapshot_lock);
-      replica->snapshot = {};
-    }
-    point.done = true;
+    for (auto& runner : entry.runners) runner->task.reset();
+    entry.point->forget_notes();
+    entry.done = true;
     ++points_done;
   }
 
   double seconds_left() const {
     std::vector<double> small;
     double large = 0.0;
-    for (const auto& point : points) {
-      for (const auto& replica : point->replicas) {
-        const double cost = point->cost_left(*replica);
+    for (const auto& entry : points) {
+      for (const auto& runner : entry->runners) {
+        const double cost = entry->cost_left(*runner);
         if (cost <= 0.0) continue;
-        if (is_large(point->settings))
+        if (entry->large)
           large += cost;
         else
           small.push_back(cost);
@@ -397,34 +348,29 @@ struct Scheduler::Implementation {
   std::optional<std::size_t> current_point() const {
     for (std::size_t index = 0; index < points.size(); ++index)
       if (!points[index]->done)
-        for (const auto& replica : points[index]->replicas)
-          if (replica->at_work) return index;
+        for (const auto& runner : points[index]->runners)
+          if (runner->at_work) return index;
     return std::nullopt;
   }
 
-  /// The estimate from the last snapshots, and a wish for new ones: at most once a second, and at most a hundredth of
-  /// this thread's time.
+  /// The estimate from the last notes, and a wish for new ones: at most once a second, and at most a hundredth of this
+  /// thread's time.
   void renew_estimate(std::size_t index) {
-    Point& point = *points[index];
+    const Entry& entry = *points[index];
     if (index != estimated_point) estimate = {not_a_number, not_a_number, not_a_number, 0};
     estimated_point = index;
     const auto begin = Clock::now();
     if (begin < next_estimate) return;
-    std::vector<cases::CouetteRecord> records;
-    for (const auto& replica : point.replicas) {
-      const std::scoped_lock hold(replica->snapshot_lock);
-      if (!replica->snapshot.samples.empty()) records.push_back(replica->snapshot);
-      replica->snapshot_wanted = true;
-    }
-    if (!records.empty()) estimate = cases::current_viscosity(point.settings, records);
+    for (const auto& runner : entry.runners) runner->note_wanted = true;
+    estimate = entry.point->estimate();
     const auto took = Clock::now() - begin;
     next_estimate = Clock::now() + std::max<Clock::duration>(std::chrono::seconds(1), 100 * took);
   }
 };
 
-Scheduler::Scheduler(std::span<const cases::CouettePoint> points, Settings settings)
+Scheduler::Scheduler(std::span<StatePoint* const> points, Settings settings)
     : self_(std::make_unique<Implementation>(std::move(settings))) {
-  for (const auto& point : points) self_->add_point(point);
+  for (StatePoint* point : points) self_->add_point(*point);
 }
 
 Scheduler::~Scheduler() = default;
@@ -438,25 +384,19 @@ bool Scheduler::run() {
   return self_->points_done == self_->points.size();
 }
 
-std::vector<PointResult> Scheduler::results() const {
-  std::vector<PointResult> results;
-  for (const auto& point : self_->points) results.push_back(point->result);
-  return results;
-}
-
-SweepState Scheduler::state() {
-  SweepState state;
+RunState Scheduler::state() {
+  RunState state;
   state.points = self_->points.size();
   state.points_done = self_->points_done;
   const double done = self_->cost_before + self_->small_speed.cost + self_->large_speed.cost;
   double left = 0.0;
-  for (const auto& point : self_->points)
-    for (const auto& replica : point->replicas) left += point->cost_left(*replica);
+  for (const auto& entry : self_->points)
+    for (const auto& runner : entry->runners) left += entry->cost_left(*runner);
   state.fraction = done + left > 0.0 ? done / (done + left) : 0.0;
   state.seconds_left = self_->seconds_left();
   state.viscosity = {not_a_number, not_a_number, not_a_number, 0};
   if (const auto current = self_->current_point()) {
-    state.label = point_label(self_->points[*current]->settings);
+    state.label = self_->points[*current]->point->label();
     if (self_->settings.watched) {
       self_->renew_estimate(*current);
       state.viscosity = self_->estimate;

@@ -18,6 +18,7 @@ namespace lucy::files {
 namespace {
 
 using testing::contents;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::ScratchFolder;
@@ -245,6 +246,66 @@ TEST_F(H5mdTest, AFullDiskKeepsTheOldFileAndTheProgram) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / ".point_001.h5.tmp"));
   write(path_);
   EXPECT_EQ(contents(path_), before);
+}
+
+/// Samples and, if asked for, the stress series of a Green-Kubo state with six steps per interval and two per sample.
+class GreenKuboH5mdTest : public ::testing::Test {
+ protected:
+  GreenKuboH5mdTest() {
+    point_.particles = 64;
+    point_.energy_per_particle = 1.0;
+    point_.step = 0.1;
+    point_.sample_interval = 0.2;
+    point_.frame_interval = 0.6;
+    point_.duration = 100.0;
+    for (int i = 0; i < 5; ++i) record_.samples.push_back({1.0 * i, 10.0 + i, 20.0 + i, 30.0 + i});
+    for (int i = 0; i < 15; ++i) series_.push_back({0.5 * i, 1.0, 2.0, 3.0, 4.0, 5.0 + i});
+    record_.energy_drift = -1e-9;
+    record_.steps = 90;
+  }
+  void write(std::span<const cases::StressSample> series) const {
+    const std::vector<H5mdGreenKuboReplica> replicas = {
+        {.replica = 0, .record = &record_, .series = series, .first_recorded_step = 60}};
+    write_h5md(path_, point_, replicas, {});
+  }
+
+  ScratchFolder folder_;
+  std::filesystem::path path_ = folder_ / "point_001.h5";
+  cases::GreenKuboPoint point_;
+  cases::GreenKuboRecord record_;
+  std::vector<cases::StressSample> series_;
+};
+
+TEST_F(GreenKuboH5mdTest, HoldsTheSamplesAndTheSeriesWithStepsOfItsOwn) {
+  ASSERT_EQ(cases::interval_steps(point_), 6);
+  write(series_);
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_THAT(read_numbers(file, "/observables/replica_01/pressure_kinetic/value"), ElementsAre(10, 11, 12, 13, 14));
+  EXPECT_THAT(read_numbers(file, "/observables/replica_01/potential_energy/step"), ElementsAre(66, 72, 78, 84, 90));
+  EXPECT_THAT(read_numbers(file, "/observables/replica_01/stress/pyy_potential/value"), SizeIs(15));
+  EXPECT_EQ(read_numbers(file, "/observables/replica_01/stress/pyy_potential/value")[14], 19.0);
+  EXPECT_EQ(read_numbers(file, "/observables/replica_01/stress/pxy_kinetic/value")[3], 1.5);
+  const auto steps = read_numbers(file, "/observables/replica_01/stress/pxy_kinetic/step");
+  const auto times = read_numbers(file, "/observables/replica_01/stress/pxy_kinetic/time");
+  EXPECT_EQ(steps[0], 62);
+  EXPECT_EQ(steps[14], 90);
+  EXPECT_DOUBLE_EQ(times[14], 9.0);
+  EXPECT_EQ(address_of(file, "/observables/replica_01/stress/pxy_kinetic/step"),
+            address_of(file, "/observables/replica_01/stress/pyy_kinetic/step"));
+  EXPECT_EQ(H5Aexists_by_name(file, "/parameters", "preparation", H5P_DEFAULT), 1);
+  EXPECT_EQ(H5Aexists_by_name(file, "/observables/replica_01", "energy_drift", H5P_DEFAULT), 1);
+  EXPECT_EQ(H5Lexists(file, "/particles", H5P_DEFAULT), 0);
+  H5Fclose(file);
+}
+
+TEST_F(GreenKuboH5mdTest, WithoutASeriesThereIsNoStressGroup) {
+  write({});
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_EQ(H5Lexists(file, "/observables/replica_01/stress", H5P_DEFAULT), 0);
+  EXPECT_THAT(read_numbers(file, "/observables/replica_01/kinetic_temperature/value"), SizeIs(5));
+  H5Fclose(file);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,6 +15,7 @@
 #include <random>
 #include <sstream>
 
+#include "input_folder.hpp"
 #include "lucy/errors.hpp"
 
 namespace lucy::files {
@@ -23,52 +23,26 @@ namespace {
 
 using Reals = std::vector<double>;
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-bool lacks(const std::string& text, const std::string& part) { return !contains(text, part); }
-bool starts_with(const std::string& text, const std::string& part) { return text.starts_with(part); }
-bool ends_with(const std::string& text, const std::string& part) { return text.ends_with(part); }
+using testing::contains;
+using testing::ends_with;
+using testing::lacks;
+using testing::Overrides;
+using testing::starts_with;
+using testing::with;
 
-using Overrides = std::vector<std::string>;
-
-/// A directory of one test, removed with it.
-class InputTest : public ::testing::Test {
+class InputTest : public testing::InputFolder {
  protected:
-  InputTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "lucy_input_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    directory_ = name;
-  }
-  ~InputTest() override { std::filesystem::remove_all(directory_); }
-
-  std::filesystem::path write(const std::string& text) const {
-    auto path = directory_ / "a.toml";
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
-
   SweepInput read(const std::string& text, const Overrides& overrides = {}) const {
     return read_sweep(write(text), overrides);
   }
 
-  /// The message of the refusal, without the directory of the test; "accepted" when there is none.
   std::string refusal(const std::string& text, const Overrides& overrides = {}) const {
     return refusal_of(write(text), overrides);
   }
 
   std::string refusal_of(const std::filesystem::path& path, const Overrides& overrides = {}) const {
-    try {
-      read_sweep(path, overrides);
-    } catch (const BadInput& error) {
-      std::string message = error.what();
-      const std::string prefix = directory_.string() + "/";
-      for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) message.erase(at, prefix.size());
-      EXPECT_PRED2(lacks, message, "\n");
-      return message;
-    }
-    return "accepted";
+    return refusal_from([&] { read_sweep(path, overrides); });
   }
-
-  std::filesystem::path directory_;
 };
 
 /// Lines 1 to 11 of a file that is accepted.
@@ -84,12 +58,6 @@ duration = 100
 
 # end
 )";
-
-std::string with(const std::string& text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::logic_error("the test changes a text that is not there: " + from);
-  return std::string(text).replace(at, from.size(), to);
-}
 
 std::vector<double> strain_rates(const SweepInput& input) {
   std::vector<double> rates;
@@ -412,6 +380,8 @@ TEST_F(InputTest, UnknownKeysAndSectionsNameTheNearest) {
   EXPECT_EQ(refusal(with(minimal, "[shear]", "[sheer]")), "a.toml:5: unknown section [sheer]; did you mean [shear]?");
   EXPECT_EQ(refusal(with(minimal, "# end", "[zzzzzz]")),
             "a.toml:11: unknown section [zzzzzz]; the sections are system, kernel, shear, run, output");
+  EXPECT_EQ(refusal(with(minimal, "# end", "[correlation]")),
+            "a.toml:11: unknown section [correlation]; it belongs to an input of `lucy green-kubo`");
   EXPECT_EQ(refusal(with(minimal, "# end", "[[point]]\n[[pointe]]")),
             "a.toml:12: unknown section [pointe]; did you mean [[point]]?");
   EXPECT_EQ(refusal(minimal + "[duration]\n"), "a.toml:12: unknown section [duration]; 'duration' is a key of [run]");
@@ -512,10 +482,10 @@ TEST_F(InputTest, WhatIsNotTomlIsRefusedWithItsLine) {
 }
 
 TEST_F(InputTest, WhatIsNoTextFileIsRefused) {
-  EXPECT_EQ(refusal_of(directory_ / "none.toml"),
+  EXPECT_EQ(refusal_of(folder_ / "none.toml"),
             "none.toml: cannot be opened (No such file or directory), where a TOML file is expected");
-  std::filesystem::create_directory(directory_ / "d");
-  EXPECT_EQ(refusal_of(directory_ / "d"), "d: is a directory, where a TOML file is expected");
+  std::filesystem::create_directory(folder_ / "d");
+  EXPECT_EQ(refusal_of(folder_ / "d"), "d: is a directory, where a TOML file is expected");
   EXPECT_EQ(refusal(std::string("\x89HDF\r\n\x1a\n\0\0", 10)),
             "a.toml: is a binary file, where a TOML file is expected");
   EXPECT_EQ(refusal(minimal + "# caf\xe9\n"), "a.toml:12: is not UTF-8 text, where a TOML file is expected");

@@ -130,6 +130,46 @@ TEST(PublishedTables, RefuseErrataThatDoNotFit) {
   EXPECT_FALSE(read_published_table("t", folder.path()).rows[0].cells[place("pxy_potential")].misprint);
 }
 
+TEST(PublishedGreenKubo, IsAsPrinted) {
+  const auto values = read_published_green_kubo(reference / "posch1995_green_kubo.csv");
+  ASSERT_THAT(values, SizeIs(2));
+  EXPECT_EQ(values[0].particles, 1024);
+  EXPECT_EQ(values[0].energy_per_particle, 0.5);
+  EXPECT_EQ(values[0].viscosity.value, 0.548);
+  EXPECT_EQ(values[0].viscosity.last_digit, 1e-3);
+  EXPECT_EQ(values[0].total_time, 20000.0);
+  EXPECT_EQ(values[0].pressure.value, 0.5562);
+  EXPECT_EQ(values[0].pressure.last_digit, 1e-4);
+  EXPECT_EQ(values[1].viscosity.value, 14.0);
+  EXPECT_EQ(values[1].viscosity.last_digit, 0.1);
+  EXPECT_FALSE(values[1].viscosity.standard_error);
+  EXPECT_EQ(values[1].pressure_kinetic.value, 0.539);
+  EXPECT_THAT(values[1].source, HasSubstr("1711"));
+}
+
+TEST(PublishedGreenKubo, MayHaveErrorsAndMayLackPressures) {
+  const ScratchFolder folder;
+  const std::string header =
+      "particles,energy_per_particle,viscosity,viscosity_error,total_time,pressure,pressure_kinetic,source\n";
+  put(folder / "mine.csv", header + "64,1,2.5,0.3,100,,,here\n");
+  const auto values = read_published_green_kubo(folder / "mine.csv");
+  ASSERT_THAT(values, SizeIs(1));
+  EXPECT_EQ(values[0].viscosity.standard_error, 0.3);
+  EXPECT_TRUE(std::isnan(values[0].pressure.value));
+  put(folder / "mine.csv", header + "64,1,2.5,0.3,0,,,here\n");
+  EXPECT_THAT(message_of<BadInput>([&] { read_published_green_kubo(folder / "mine.csv"); }),
+              HasSubstr("mine.csv:2: total_time is 0 where a number above 0 was expected"));
+  put(folder / "mine.csv", header + "64,1,,0.3,100,,,here\n");
+  EXPECT_THAT(message_of<BadInput>([&] { read_published_green_kubo(folder / "mine.csv"); }),
+              HasSubstr("mine.csv:2: viscosity is \"\" where a number was expected"));
+}
+
+TEST(PublishedGreenKubo, IsNoTableToCompareASweepWith) {
+  EXPECT_THAT(
+      message_of<BadInput>([] { read_published_table((reference / "posch1995_green_kubo.csv").string(), reference); }),
+      HasSubstr("the header has no column strain_rate"));
+}
+
 /// Rows that repeat the published table as it should read, with small errors.
 std::vector<cases::TableRow> faithful_rows(const cases::PublishedTable& table) {
   std::vector<cases::TableRow> rows;

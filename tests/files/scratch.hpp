@@ -1,18 +1,20 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the tests of this room share: a folder of their own, and a disk that is full.
+// What the tests of this room share: a folder of their own, a disk that is full, what was written and what was said.
 #pragma once
 
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -78,6 +80,13 @@ std::string message_of(const Action& action) {
     return error.what();
   }
   return "";
+}
+
+inline std::size_t widest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t widest = 0;
+  for (std::string line; std::getline(lines, line);) widest = std::max(widest, line.size());
+  return widest;
 }
 
 }  // namespace lucy::files::testing

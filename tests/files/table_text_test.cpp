@@ -6,13 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <sstream>
+
+#include "scratch.hpp"
 
 namespace lucy::files {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::widest_line;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -76,14 +78,6 @@ cases::TableRow row(double strain_rate) {
   result.estimates[cases::quantity("normal_stress")] = {3.2, 0.1, 50, 49};
   result.estimates[cases::quantity("largest_kinetic_share")] = {0.0075, 0.0001, 50, 49};
   return result;
-}
-
-std::size_t widest_line(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::size_t widest = 0;
-  while (std::getline(lines, line)) widest = std::max(widest, line.size());
-  return widest;
 }
 
 TEST(FormatTable, ShowsValuesWithErrorsAndSaysHowTheyWereMade) {

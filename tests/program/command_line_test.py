@@ -181,7 +181,7 @@ class Directories(ProgramTest):
         path = self.folder / "x" / "table.csv"
         lines = path.read_text().splitlines(keepends=True)
         path.write_text("".join(lines[:-1]))
-        self.sweep("tiny.toml", "--out", "x", code=1, says=["table.csv", "remove it"])
+        self.sweep("tiny.toml", "--out", "x", code=1, says=["table.csv", "remove x/table.csv"])
         path.write_text("".join(lines).replace(",ok\n", ",fine\n"))
         self.sweep("tiny.toml", "--out", "x", code=1, says=["table.csv", "fine"])
         path.unlink()

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-SweepState halfway() {
-  SweepState state;
+RunState halfway() {
+  RunState state;
   state.points = 5;
   state.points_done = 2;
   state.fraction = 0.415;

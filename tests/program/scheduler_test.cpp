@@ -6,11 +6,14 @@
 
 #include <atomic>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "files/scratch.hpp"
 #include "lucy/errors.hpp"
 #include "lucy/files/table_csv.hpp"
+#include "program/couette_point.hpp"
 
 namespace lucy::program {
 namespace {
@@ -34,7 +37,6 @@ std::vector<cases::CouettePoint> two_points() {
 
 Scheduler::Settings settings_in(const ScratchFolder& folder, int threads) {
   Scheduler::Settings settings;
-  settings.directory = folder.path();
   settings.checkpoints = folder / "checkpoints";
   std::filesystem::create_directories(settings.checkpoints);
   settings.threads = threads;
@@ -42,21 +44,47 @@ Scheduler::Settings settings_in(const ScratchFolder& folder, int threads) {
   return settings;
 }
 
-std::string table_of(const ScratchFolder& folder, const Scheduler& scheduler) {
+/// A scheduler with the points that it runs.
+class RunOfPoints {
+ public:
+  RunOfPoints(const std::vector<cases::CouettePoint>& settings_of_points, const ScratchFolder& folder,
+      const Scheduler::Settings& settings) {
+    for (const auto& point : settings_of_points) {
+      const auto series = folder / point_file_name(points_.size());
+      points_.push_back(std::make_unique<CouetteStatePoint>(point, series, files::H5mdAuthorship{}));
+      all_.push_back(points_.back().get());
+    }
+    scheduler_.emplace(all_, settings);
+  }
+
+  Scheduler* operator->() { return &*scheduler_; }
+  std::vector<PointResult> results() const {
+    std::vector<PointResult> results;
+    for (const auto& point : points_) results.push_back(point->result());
+    return results;
+  }
+
+ private:
+  std::vector<std::unique_ptr<CouetteStatePoint>> points_;
+  std::vector<StatePoint*> all_;
+  std::optional<Scheduler> scheduler_;
+};
+
+std::string table_of(const ScratchFolder& folder, const RunOfPoints& run) {
   std::vector<cases::TableRow> rows;
-  for (const auto& result : scheduler.results()) rows.push_back(result.row);
+  for (const auto& result : run.results()) rows.push_back(result.row);
   files::write_table_csv(folder / "table.csv", rows);
   return contents(folder / "table.csv");
 }
 
 std::string finished_table(const std::vector<cases::CouettePoint>& points, int threads) {
   const ScratchFolder folder;
-  Scheduler scheduler(points, settings_in(folder, threads));
-  EXPECT_FALSE(scheduler.resumes());
-  EXPECT_TRUE(scheduler.run());
-  EXPECT_EQ(scheduler.state().points_done, 2u);
-  EXPECT_DOUBLE_EQ(scheduler.state().fraction, 1.0);
-  return table_of(folder, scheduler);
+  RunOfPoints run(points, folder, settings_in(folder, threads));
+  EXPECT_FALSE(run->resumes());
+  EXPECT_TRUE(run->run());
+  EXPECT_EQ(run->state().points_done, 2u);
+  EXPECT_DOUBLE_EQ(run->state().fraction, 1.0);
+  return table_of(folder, run);
 }
 
 TEST(Scheduler, GivesTheSameBitsOnAnyNumberOfThreads) {
@@ -73,10 +101,10 @@ TEST(Scheduler, GoesOnWhereItWasStopped) {
     auto settings = settings_in(folder, 2);
     std::atomic<int> questions = 0;
     settings.stop_asked = [&questions] { return ++questions > 40; };
-    Scheduler scheduler(two_points(), settings);
-    EXPECT_EQ(scheduler.resumes(), sessions > 0);
-    if (scheduler.run()) {
-      EXPECT_EQ(table_of(folder, scheduler), uninterrupted);
+    RunOfPoints run(two_points(), folder, settings);
+    EXPECT_EQ(run->resumes(), sessions > 0);
+    if (run->run()) {
+      EXPECT_EQ(table_of(folder, run), uninterrupted);
       break;
     }
   }
@@ -88,22 +116,22 @@ TEST(Scheduler, CanBeWatchedWhileItRuns) {
   const ScratchFolder folder;
   auto settings = settings_in(folder, 2);
   settings.watched = true;
-  Scheduler scheduler(two_points(), settings);
+  RunOfPoints run(two_points(), folder, settings);
   std::atomic<bool> running = true;
   double fraction = 0.0;
   std::thread watcher([&] {
     while (running) {
-      const SweepState state = scheduler.state();
+      const RunState state = run->state();
       EXPECT_EQ(state.points, 2u);
       EXPECT_GE(state.fraction, fraction);
       EXPECT_LE(state.fraction, 1.0);
       fraction = state.fraction;
     }
   });
-  EXPECT_TRUE(scheduler.run());
+  EXPECT_TRUE(run->run());
   running = false;
   watcher.join();
-  EXPECT_EQ(table_of(folder, scheduler), unwatched);
+  EXPECT_EQ(table_of(folder, run), unwatched);
 }
 
 TEST(Scheduler, RunsOnUntilTheErrorIsSmallEnough) {
@@ -113,9 +141,9 @@ TEST(Scheduler, RunsOnUntilTheErrorIsSmallEnough) {
     point.maximum_duration = 2000.0;
   }
   const ScratchFolder folder;
-  Scheduler scheduler(points, settings_in(folder, 2));
-  ASSERT_TRUE(scheduler.run());
-  for (const auto& result : scheduler.results()) {
+  RunOfPoints run(points, folder, settings_in(folder, 2));
+  ASSERT_TRUE(run->run());
+  for (const auto& result : run.results()) {
     const auto viscosity = result.row.estimates[cases::quantity("viscosity")];
     EXPECT_EQ(result.row.status, cases::RowStatus::ok);
     EXPECT_LE(viscosity.error, 0.05 * viscosity.value);
@@ -130,20 +158,20 @@ TEST(Scheduler, GivesUpOnATargetAtTheMaximum) {
   points[0].target_relative_error = 1e-6;
   points[0].maximum_duration = 50.0;
   const ScratchFolder folder;
-  Scheduler scheduler(points, settings_in(folder, 2));
-  ASSERT_TRUE(scheduler.run());
-  EXPECT_EQ(scheduler.results()[0].row.status, cases::RowStatus::too_short);
-  EXPECT_DOUBLE_EQ(scheduler.results()[0].row.duration, 50.0);
-  EXPECT_DOUBLE_EQ(scheduler.results()[1].row.duration, 30.0);
+  RunOfPoints run(points, folder, settings_in(folder, 2));
+  ASSERT_TRUE(run->run());
+  EXPECT_EQ(run.results()[0].row.status, cases::RowStatus::too_short);
+  EXPECT_DOUBLE_EQ(run.results()[0].row.duration, 50.0);
+  EXPECT_DOUBLE_EQ(run.results()[1].row.duration, 30.0);
 }
 
 TEST(Scheduler, LetsOnePointFailAndTheOthersGoOn) {
   auto points = two_points();
   points[1].energy_tolerance = 1e-18;
   const ScratchFolder folder;
-  Scheduler scheduler(points, settings_in(folder, 2));
-  ASSERT_TRUE(scheduler.run());
-  const auto results = scheduler.results();
+  RunOfPoints run(points, folder, settings_in(folder, 2));
+  ASSERT_TRUE(run->run());
+  const auto results = run.results();
   EXPECT_NE(results[0].row.status, cases::RowStatus::failed);
   EXPECT_EQ(results[1].row.status, cases::RowStatus::failed);
   EXPECT_NE(results[1].row.failure, "");
@@ -156,15 +184,15 @@ TEST(Scheduler, LetsOnePointFailAndTheOthersGoOn) {
 TEST(Scheduler, DoesNotTakeUpTheCheckpointsOfAnotherBuild) {
   const ScratchFolder folder;
   {
-    Scheduler scheduler(two_points(), settings_in(folder, 2));
-    ASSERT_TRUE(scheduler.run());
+    RunOfPoints run(two_points(), folder, settings_in(folder, 2));
+    ASSERT_TRUE(run->run());
   }
   auto settings = settings_in(folder, 2);
   settings.build = "another build";
   int told = 0;
   settings.say = [&told](const std::string&) { ++told; };
-  const Scheduler scheduler(two_points(), settings);
-  EXPECT_FALSE(scheduler.resumes());
+  RunOfPoints run(two_points(), folder, settings);
+  EXPECT_FALSE(run->resumes());
   EXPECT_GE(told, 4);
 }
 
@@ -172,8 +200,8 @@ TEST(Scheduler, EndsWhenTheDiskRefuses) {
   const ScratchFolder folder;
   auto settings = settings_in(folder, 2);
   settings.checkpoints = folder / "not there";
-  Scheduler scheduler(two_points(), settings);
-  EXPECT_NE(files::testing::message_of<RunFailed>([&] { scheduler.run(); }).find("point_00"), std::string::npos);
+  RunOfPoints run(two_points(), folder, settings);
+  EXPECT_NE(files::testing::message_of<RunFailed>([&] { run->run(); }).find("point_00"), std::string::npos);
 }
 
 }  // namespace

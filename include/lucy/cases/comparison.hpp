@@ -101,6 +101,13 @@ struct Comparison {
   Verdict verdict = Verdict::nothing_to_judge;  ///< disagree: a judged cell is beyond 4
 };
 
+/// Equal to one part in 10^9.
+bool nearly_equal(double a, double b);
+
+/// The standard error of a published value: its own, or else rounding of print and, scaled by (our total
+/// time)/(theirs), the statistical error of ours.
+double error_of_print(const PublishedCell& cell, double our_error, double time_ratio);
+
 /// Rows are matched by particle number, energy and strain rate (the latter two to one part in 10^9).
 Comparison compare(std::span<const TableRow> ours, const PublishedTable& published);
 

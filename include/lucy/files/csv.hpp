@@ -41,6 +41,20 @@ class CsvFile {
   std::vector<Row> rows_;
 };
 
+/// Cells of a file that is written line by line.
+class CsvLine {
+ public:
+  void add(double value);  ///< as shortest_text
+  void add(std::int64_t value);
+  void add(std::string_view cell);  ///< as it is: no comma, quotation mark or line feed
+  /// The line with its line feed; the next one starts empty.
+  std::string end();
+
+ private:
+  std::string text_;
+  bool first_ = true;
+};
+
 /// The shortest decimal text that reads back as the same bits; nan is "nan".
 std::string shortest_text(double value);
 

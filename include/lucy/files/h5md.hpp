@@ -7,6 +7,7 @@
 //     /h5md                              version [1,1], author, creator
 //     /parameters                        the point, as attributes
 //     /observables/replica_01/NAME       step, time, value [samples]; step and time are one dataset, hard-linked
+//                            /stress/NAME  likewise: every stress of a Green-Kubo state that keeps its series
 //     /particles/replica_01/position     step, time, value [frames][N][2]: wrapped into [0, L)
 //                          /velocity     laboratory: peculiar momentum / m + strain_rate y e_x
 //                          /momentum     peculiar
@@ -14,8 +15,9 @@
 //                                        the edge vectors (L_x, 0) and (offset, L_y)
 //                          /lees_edwards offset (x-shift of the image above), direction (0: x), normal (1: y)
 //
-// The value at (step, time) of an observable is the average over the sample interval that ends there. Step and time
-// count from the start of the run, equilibration included; steps are those of the stated size, however subdivided.
+// The value at (step, time) of an observable is the average over the sample interval that ends there, that of
+// /stress of the instant itself. Step and time count from the start of the run, equilibration included; steps are those
+// of the stated size, however subdivided.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +26,7 @@
 #include <string>
 
 #include "lucy/cases/couette.hpp"
+#include "lucy/cases/green_kubo.hpp"
 #include "lucy/files/frame_spool.hpp"
 
 namespace lucy::files {
@@ -42,10 +45,24 @@ struct H5mdReplica {
   const FrameSpool* frames = nullptr;        ///< null or empty: no particles group
 };
 
+/// What one replica of a Green-Kubo state contributes; what is referred to must live until the file is written.
+struct H5mdGreenKuboReplica {
+  int replica = 0;  ///< from 0: group replica_01
+  const cases::GreenKuboRecord* record = nullptr;
+  std::span<const cases::StressSample> series;  ///< empty: not kept
+  std::int64_t first_recorded_step = 0;         ///< GreenKuboRun::first_recorded_step()
+  const FrameSpool* frames = nullptr;           ///< null or empty: no particles group
+};
+
 /// Writes the file under a temporary name and renames it. The same contents give the same bytes (no time stamps).
 /// The file is put together in memory (72 bytes per sample, 48 per particle and frame). May be called from several
 /// threads; they take turns. Throws RunFailed with path and reason.
 void write_h5md(const std::filesystem::path& path, const cases::CouettePoint& point,
                 std::span<const H5mdReplica> replicas, const H5mdAuthorship& authorship);
+
+/// The same of a Green-Kubo state (strain rate zero; steps and times count from the end of the preparation; 48 bytes
+/// per stress sample that was kept).
+void write_h5md(const std::filesystem::path& path, const cases::GreenKuboPoint& point,
+                std::span<const H5mdGreenKuboReplica> replicas, const H5mdAuthorship& authorship);
 
 }  // namespace lucy::files

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lucy/cases/comparison.hpp"
+#include "lucy/cases/viscosities.hpp"
 
 namespace lucy::files {
 
@@ -22,5 +23,10 @@ cases::PublishedTable read_published_table(const std::string& name_or_path,
 
 /// The names in index.csv. Throws BadInput when it cannot be read.
 std::vector<std::string> published_table_names(const std::filesystem::path& reference_directory);
+
+/// Published Green-Kubo values: a CSV file with columns particles, energy_per_particle, viscosity, total_time,
+/// pressure, pressure_kinetic and source, the digits as printed (an empty pressure was not printed); a column
+/// viscosity_error may give errors of print. Throws BadInput naming file and line.
+std::vector<cases::PublishedGreenKubo> read_published_green_kubo(const std::filesystem::path& path);
 
 }  // namespace lucy::files

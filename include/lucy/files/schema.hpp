@@ -27,10 +27,13 @@
 
 namespace lucy::files {
 
-/// A single value of a key. A key of type real always holds a double, one of type text or choice a string.
-using Value = std::variant<bool, std::int64_t, double, std::string>;
+/// Texts that are one value together.
+using Texts = std::vector<std::string>;
 
-enum class Type { text, choice, boolean, integer, real };
+/// A single value of a key. A key of type real always holds a double, one of type text or choice a string.
+using Value = std::variant<bool, std::int64_t, double, std::string, Texts>;
+
+enum class Type { text, texts, choice, boolean, integer, real };
 
 /// What a list means where one number could stand.
 enum class Lists {
@@ -80,10 +83,11 @@ struct Section {
 };
 
 struct Schema {
-  std::string introduction;       ///< first paragraph of the explanation
-  std::vector<Section> sections;  ///< in the order of explanation and of the resolved input
-  std::vector<Key> keys;          ///< grouped by section; multiplying keys from the outermost to the innermost
-  std::string rows = {};          ///< name of the array of tables that lists rows, such as "point"; empty: none
+  std::string introduction;           ///< first paragraph of the explanation
+  std::vector<Section> sections;      ///< in the order of explanation and of the resolved input
+  std::vector<Section> foreign = {};  ///< of other commands' files: refused, `meaning` being the end of the sentence
+  std::vector<Key> keys;              ///< grouped by section; multiplying keys from the outermost to the innermost
+  std::string rows = {};              ///< name of the array of tables that lists rows, such as "point"; empty: none
   std::string rows_meaning = {};
 
   /// The key of that path ("run.step"), or nullptr.
@@ -183,11 +187,13 @@ struct BoundKey {
   }
 };
 
-/// Stored in a member of type bool, std::string, any integer, or any real.
+/// Stored in a member of type bool, std::string, Texts, any integer, or any real.
 template <class Row, class Member>
 Binding<Row> stored_in(Member Row::*member) {
-  using Held = std::conditional_t<std::is_same_v<Member, bool> || std::is_same_v<Member, std::string>, Member,
-                                  std::conditional_t<std::is_integral_v<Member>, std::int64_t, double>>;
+  constexpr bool as_it_is =
+      std::is_same_v<Member, bool> || std::is_same_v<Member, std::string> || std::is_same_v<Member, Texts>;
+  using Held =
+      std::conditional_t<as_it_is, Member, std::conditional_t<std::is_integral_v<Member>, std::int64_t, double>>;
   return {[member](Row& row, const Value& value) { row.*member = static_cast<Member>(std::get<Held>(value)); },
           [member](const Row& row) { return std::optional<Value>(static_cast<Held>(row.*member)); }};
 }

@@ -24,6 +24,7 @@ using Tensor = Eigen::Matrix<double, D, D>;
 /// What a pass over the pairs adds up besides the forces.
 enum class Wanted {
   shear_stress,  ///< the xy component of the virial alone: what the ergostat needs at every stage
+  stress,        ///< the whole virial
   everything     ///< potential energy and the whole virial
 };
 
@@ -34,7 +35,7 @@ struct LucyForce {
   static constexpr int lab_velocity = -1;
   static constexpr int given = D;
   static constexpr int virials = D * (D + 1) / 2;
-  static constexpr int totals = wanted == Wanted::everything ? virials + 1 : 1;
+  static constexpr int totals = wanted == Wanted::everything ? virials + 1 : wanted == Wanted::stress ? virials : 1;
 
   kernel::Lucy<D> kernel;
 
@@ -45,14 +46,14 @@ struct LucyForce {
       to_i[d] = slope * pair.displacement[d];
       to_j[d] = -to_i[d];
     }
-    if constexpr (wanted == Wanted::everything) {
-      for (int a = 0; a < D; ++a) {
-        for (int b = 0; b <= a; ++b) {
+    if constexpr (wanted != Wanted::shear_stress) {
+      pairs::unrolled<D>([&](auto a) {
+        pairs::unrolled<a + 1>([&](auto b) {
           pairs::Lanes& virial = sums[a * (a + 1) / 2 + b];
           virial = fma(to_i[a], pair.displacement[b], virial);
-        }
-      }
-      sums[virials] += kernel.weight(pair.distance);
+        });
+      });
+      if constexpr (wanted == Wanted::everything) sums[virials] += kernel.weight(pair.distance);
     } else if constexpr (D > 1) {
       sums[0] = fma(to_i[1], pair.displacement[0], sums[0]);
     }
@@ -62,7 +63,7 @@ struct LucyForce {
 /// Sums over all pairs of one configuration.
 template <int D>
 struct PairTotals {
-  double potential_energy = 0.0;         ///< Phi; nan when only the shear stress was wanted
+  double potential_energy = 0.0;         ///< Phi; nan unless everything was wanted
   Tensor<D> virial = Tensor<D>::Zero();  ///< sum_{i<j} r_ij F_ij, symmetric: V times the potential pressure tensor;
                                          ///< off the xy component nan when only the shear stress was wanted
 };

@@ -12,11 +12,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lucy/archive.hpp"
 #include "lucy/kernel/lucy.hpp"
+#include "lucy/md/heat_flux.hpp"
 #include "lucy/md/lucy_atoms.hpp"
 #include "lucy/measure/kinetic.hpp"
 #include "lucy/motion/settings.hpp"
@@ -52,7 +54,9 @@ class Trajectory {
              const Watch& watch, const Team& team);
 
   /// Moves on by `dt`. Throws RunFailed, naming time and cause, when even the smallest substep fails.
-  void advance(double dt);
+  /// `wanted`: what is to be known of the new state. Velocity Verlet goes on without energy and stress: where they are
+  /// not wanted they stay unknown (nan), the energy of that step unwatched, and it takes a quarter less time.
+  void advance(double dt, md::Wanted wanted = md::Wanted::everything);
 
   /// Sorts the particles and makes the neighbour list anew, for steps of `dt`. The list is no part of what save()
   /// writes: a loaded trajectory goes on with the same bits as the saved one if both renew their list first.
@@ -70,11 +74,15 @@ class Trajectory {
   const measure::KineticSums<D>& kinetic() const { return kinetic_; }
   double energy() const { return pair_totals_.potential_energy + kinetic_.kinetic_energy(); }
   double friction() const { return friction_.zeta; }
+  /// Without shear: sum over particles and pairs, see md/heat_flux.hpp. Costs a pass over the pairs.
+  md::HeatFlux<D> heat_flux() const;
 
   /// By particle number, wrapped into the box: x0 y0 x1 y1 ...; peculiar momenta in the same order; forces likewise.
   std::vector<double> positions() const;
   std::vector<double> momenta() const { return by_particle(now_.columns, D); }
   std::vector<double> forces() const { return by_particle(force_, 0); }
+  /// The same without an allocation: `values` holds D numbers per particle.
+  void copy_momenta(std::span<double> values) const { copy_by_particle(now_.columns, D, values); }
 
   void save(ArchiveWriter& archive) const;
   /// Takes a state saved by a trajectory of the same settings. Throws RunFailed when it is truncated or of others.
@@ -95,10 +103,11 @@ class Trajectory {
   std::string why_stuck(bool near, double piece) const;
   static std::array<const double*, D> pointers(const space::Columns& columns, int first);
   bool list_lasts(double dt);
-  bool try_step(double dt);
+  bool try_step(double dt, md::Wanted wanted);
   void evaluate(const Phase<sllod_numbers>& at, double age, md::Wanted wanted);
   void rescale();
   std::vector<double> by_particle(const space::Columns& columns, int first) const;
+  void copy_by_particle(const space::Columns& columns, int first, std::span<double> values) const;
 
   kernel::Lucy<D> kernel_;
   Shear shear_;

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <experimental/simd>
+#include <type_traits>
+#include <utility>
 
 namespace lucy::pairs {
 
@@ -23,6 +25,16 @@ inline void store(double* to, const Lanes& value) { value.copy_to(to, simd::vect
 template <int by>
 Lanes rotate(const Lanes& value) {
   return Lanes([&](auto lane) { return value[(static_cast<std::size_t>(lane) + by) % lane_count]; });
+}
+
+/// body(0) ... body(count - 1), the argument being a constant: arrays of Lanes that are reached by constants alone stay
+/// in registers, which a loop over their index would keep the compiler from.
+template <int count, class Body>
+[[gnu::always_inline]] inline void unrolled(const Body& body) {
+  [&body]<int... i>(std::integer_sequence<int, i...>) [[gnu::always_inline]] {
+    (body(std::integral_constant<int, i>{}), ...);
+  }
+  (std::make_integer_sequence<int, count>{});
 }
 
 }  // namespace lucy::pairs

@@ -130,7 +130,7 @@ Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const Im
                            const Pass<D, Sum> pass, const Sum sum) {
   const Lanes range_squared = range * range;
   std::array<Lanes, Sum::totals> totals;
-  totals.fill(0.0);
+  unrolled<Sum::totals>([&](auto c) { totals[c] = 0.0; });
   // One loop over the rows of a whole cluster, without branches on where a row ends: what a row gives to its particle
   // is gathered in memory, lane by lane, and added up across lanes once per cluster.
   std::array<Given<Sum>, lane_count> at_i;
@@ -154,7 +154,7 @@ Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const Im
     }
   }
   Totals<Sum> result{};
-  for (int c = 0; c < Sum::totals; ++c) result[c] = simd::reduce(totals[c]);
+  unrolled<Sum::totals>([&](auto c) { result[c] = simd::reduce(totals[c]); });
   return result;
 }
 

@@ -1,0 +1,638 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/cases/green_kubo_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lucy/errors.hpp"
+#include "lucy/statistics/decay.hpp"
+#include "lucy/statistics/jackknife.hpp"
+#include "lucy/statistics/running_integral.hpp"
+#include "lucy/statistics/spectrum_fit.hpp"
+
+namespace lucy::cases {
+
+namespace {
+
+using statistics::Estimate;
+using Numbers = std::vector<double>;
+using Blocks = std::vector<const CorrelationBlock*>;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr Estimate unknown = {not_a_number, not_a_number, not_a_number, 0};
+
+constexpr double least_first_lag = 0.5;             // of C(0), below which samples are too far apart
+constexpr double least_spectrum_p_value = 0.001;    // below which the spectrum is called of another shape
+constexpr std::size_t most_envelope_points = 4096;  // the envelope costs their square
+constexpr double components = 2.0;                  // P_xy and (P_xx - P_yy)/2
+constexpr double longest_series_length = 400.0;     // of a series sampled elsewhere
+constexpr double length_of_series = 0.2;
+constexpr double series_block_in_lengths = 2.5;
+constexpr std::int64_t most_series_blocks = 16;
+
+/// What the estimators have to know of a state, and how its settings are called where it came from.
+struct State {
+  double volume = 0.0;
+  Estimate temperature;
+  double sample_interval = 0.0;
+  double cutoff = 0.0;    // 0: by the rule
+  double duration = 0.0;  // per replica
+  std::string length_key = "correlation.length";
+  std::string interval_key = "output.sample_interval";
+  std::string duration_key = "run.duration";
+};
+
+/// The lags, in time, that all of these correlations begin with.
+Numbers common_times(const std::vector<const measure::Correlation*>& correlations, double sample_interval) {
+  if (correlations.empty()) return {};
+  const Numbers& first = correlations.front()->lag;
+  std::size_t common = first.size();
+  for (const measure::Correlation* other : correlations) {
+    const auto end = std::mismatch(first.begin(), first.end(), other->lag.begin(), other->lag.end()).first;
+    common = std::min(common, static_cast<std::size_t>(end - first.begin()));
+  }
+  Numbers times(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(common));
+  for (double& time : times) time *= sample_interval;
+  return times;
+}
+
+/// Correlation functions of all blocks, each with its running integral: both are linear in the blocks, so that their
+/// means and errors are one computation.
+class BlockCurves {
+ public:
+  /// `blocks[b]` holds the correlation functions of block b one after another, each at all of `times`.
+  BlockCurves(Numbers times, std::vector<Numbers> blocks, Numbers weights)
+      : times_(std::move(times)), averages_(with_integrals(times_, std::move(blocks)), std::move(weights)) {}
+
+  const Numbers& times() const { return times_; }
+  std::size_t blocks() const { return averages_.blocks(); }
+
+  /// The means over all blocks but one; over all of them for `blocks()`.
+  Numbers without(std::size_t block) const {
+    return block == blocks() ? averages_.mean() : averages_.mean_without(block);
+  }
+  Numbers errors() const { return averages_.errors(); }
+
+  std::span<const double> correlation(const Numbers& numbers, std::size_t curve) const {
+    return std::span(numbers).subspan(2 * curve * times_.size(), times_.size());
+  }
+  std::span<const double> integral(const Numbers& numbers, std::size_t curve) const {
+    return std::span(numbers).subspan((2 * curve + 1) * times_.size(), times_.size());
+  }
+  double integral_to(const Numbers& numbers, std::size_t curve, double time) const {
+    return statistics::value_at(times_, integral(numbers, curve), time);
+  }
+
+ private:
+  static std::vector<Numbers> with_integrals(const Numbers& times, std::vector<Numbers> blocks) {
+    for (Numbers& block : blocks) {
+      Numbers both;
+      both.reserve(2 * block.size());
+      for (std::size_t begin = 0; begin < block.size(); begin += times.size()) {
+        const std::span<const double> values = std::span(block).subspan(begin, times.size());
+        const Numbers integral = statistics::running_integral(times, values);
+        both.insert(both.end(), values.begin(), values.end());
+        both.insert(both.end(), integral.begin(), integral.end());
+      }
+      block = std::move(both);
+    }
+    return blocks;
+  }
+
+  Numbers times_;
+  statistics::BlockAverages averages_;
+};
+
+/// Where the integrals end, by the rule or as asked for.
+struct Ending {
+  statistics::ExponentialDecay decay;
+  double cutoff = 0.0;
+};
+
+Ending ending_of(const BlockCurves& curves, const Numbers& numbers, std::size_t curve, double fixed_cutoff) {
+  const auto decay = statistics::fit_decay(curves.times(), curves.correlation(numbers, curve));
+  const double longest = curves.times().back();
+  if (fixed_cutoff > 0.0) return {decay, std::min(fixed_cutoff, longest)};
+  // Without a decay time there is no rule to follow: as far as is known, and that is told.
+  return {decay, std::isnan(decay.time) ? longest : std::min(cutoff_in_decay_times * decay.time, longest)};
+}
+
+/// The same where one block is left out: chance there must not leave the whole without an error.
+Ending ending_without(const BlockCurves& curves, const Numbers& numbers, std::size_t curve, double fixed_cutoff,
+                      const Ending& of_all) {
+  const Ending own = ending_of(curves, numbers, curve, fixed_cutoff);
+  return std::isnan(own.decay.time) ? of_all : own;
+}
+
+/// The jackknife of several quantities at once: `values_of` makes them from the means over blocks and the ending.
+template <class ValuesOf>
+auto jackknife_of(const BlockCurves& curves, std::size_t curve, double fixed_cutoff, const Ending& of_all,
+                  ValuesOf values_of) {
+  const auto values = values_of(curves.without(curves.blocks()), of_all);
+  std::array<Numbers, std::tuple_size_v<decltype(values)>> leaving_out{};
+  if (curves.blocks() >= 2) {
+    for (std::size_t b = 0; b < curves.blocks(); ++b) {
+      const Numbers numbers = curves.without(b);
+      const auto each = values_of(numbers, ending_without(curves, numbers, curve, fixed_cutoff, of_all));
+      for (std::size_t q = 0; q < each.size(); ++q) leaving_out[q].push_back(each[q]);
+    }
+  }
+  std::array<Estimate, std::tuple_size_v<decltype(values)>> estimates;
+  for (std::size_t q = 0; q < estimates.size(); ++q) estimates[q] = statistics::jackknife(values[q], leaving_out[q]);
+  return std::pair(estimates, leaving_out);
+}
+
+/// An estimate in other units; the unit has an error of its own.
+Estimate scaled(Estimate estimate, double factor, double relative_error = 0.0) {
+  estimate.value *= factor;
+  estimate.error = std::hypot(estimate.error * factor, estimate.value * relative_error);
+  return estimate;
+}
+
+Curve scaled_curve(std::span<const double> values, std::span<const double> errors, double factor) {
+  Curve curve;
+  if (values.empty() || std::isnan(values.front())) return curve;
+  for (const double value : values) curve.value.push_back(factor * value);
+  for (const double error : errors) curve.error.push_back(factor * error);
+  return curve;
+}
+
+/// One standard deviation of the running integral of pure noise of correlation function C (statistics::noise_envelope),
+/// where lags may be unequally spaced.
+Numbers envelope(const Numbers& times, std::span<const double> values, double total_time) {
+  if (times.size() < 2) return Numbers(times.size(), 0.0);
+  const double longest = times.back() - times.front();
+  const auto most = static_cast<double>(most_envelope_points - 1);
+  const auto intervals = static_cast<std::size_t>(std::round(std::min(most, longest / (times[1] - times[0]))));
+  Numbers grid(intervals + 1), on_grid(intervals + 1);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    grid[i] = std::min(times.back(), longest * static_cast<double>(i) / static_cast<double>(intervals));
+    on_grid[i] = statistics::value_at(times, values, grid[i]);
+  }
+  const Numbers of_grid = statistics::noise_envelope(grid, on_grid, total_time);
+  Numbers result;
+  for (const double time : times) result.push_back(statistics::value_at(grid, of_grid, std::min(time, grid.back())));
+  return result;
+}
+
+// --------------------------------------------------------------------------------------------------------- the stress
+
+enum StressCurve : std::size_t { of_xy, of_difference, of_mean, of_kinetic, of_cross, of_potential, of_noise };
+constexpr std::size_t stress_curves = 7;
+
+/// The mean of two correlations at the first `points` lags; nan where either is not known.
+Numbers mean_of(const measure::Correlation& a, const measure::Correlation& b, std::size_t points) {
+  Numbers mean(points, not_a_number);
+  for (std::size_t i = 0; i < std::min({points, a.value.size(), b.value.size()}); ++i)
+    mean[i] = 0.5 * (a.value[i] + b.value[i]);
+  return mean;
+}
+
+std::optional<BlockCurves> stress_of(const Blocks& blocks, double sample_interval) {
+  std::vector<const measure::Correlation*> known;
+  for (const CorrelationBlock* block : blocks)
+    for (const measure::Correlation& correlation : block->stress)
+      if (!correlation.value.empty()) known.push_back(&correlation);
+  Numbers times = common_times(known, sample_interval);
+  const std::size_t points = times.size();
+  if (points < 2) return std::nullopt;
+
+  std::vector<Numbers> numbers;
+  Numbers weights;
+  for (const CorrelationBlock* block : blocks) {
+    const auto& stress = block->stress;
+    std::array<Numbers, stress_curves> curves;
+    curves[of_xy] = mean_of(stress[xy], stress[xy], points);
+    curves[of_difference] = mean_of(stress[difference], stress[difference], points);
+    curves[of_mean] = mean_of(stress[xy], stress[difference], points);
+    curves[of_kinetic] = mean_of(stress[xy_kinetic], stress[difference_kinetic], points);
+    curves[of_potential] = mean_of(stress[xy_potential], stress[difference_potential], points);
+    curves[of_cross] = curves[of_mean];
+    for (std::size_t i = 0; i < points; ++i) curves[of_cross][i] -= curves[of_kinetic][i] + curves[of_potential][i];
+    curves[of_noise] = mean_of(stress[pure_noise], stress[pure_noise], points);
+    Numbers& together = numbers.emplace_back();
+    for (const Numbers& curve : curves) together.insert(together.end(), curve.begin(), curve.end());
+    weights.push_back(static_cast<double>(block->samples));
+  }
+  return BlockCurves(std::move(times), std::move(numbers), std::move(weights));
+}
+
+/// The spectra of the blocks that have one of the same segment length, weighted by their segments.
+struct BlockSpectra {
+  std::size_t segment = 0;
+  double segments = 0.0;
+  std::vector<const measure::Spectrum*> of_block;  // null: none
+  Numbers power;
+
+  explicit BlockSpectra(const Blocks& blocks) {
+    for (const CorrelationBlock* block : blocks) {
+      const measure::Spectrum& spectrum = block->spectrum;
+      if (segment == 0 && spectrum.segments > 0) segment = spectrum.segment;
+      const bool taken = spectrum.segments > 0 && spectrum.segment == segment;
+      of_block.push_back(taken ? &spectrum : nullptr);
+      if (!taken) continue;
+      power.resize(spectrum.power.size(), 0.0);
+      segments += static_cast<double>(spectrum.segments);
+      for (std::size_t k = 0; k < power.size(); ++k)
+        power[k] += static_cast<double>(spectrum.segments) * spectrum.power[k];
+    }
+    for (double& each : power) each /= segments;
+  }
+
+  /// What is left without one block.
+  double segments_without(std::size_t block) const {
+    return of_block[block] == nullptr ? segments : segments - static_cast<double>(of_block[block]->segments);
+  }
+  Numbers power_without(std::size_t block) const {
+    const double left = segments_without(block);
+    if (of_block[block] == nullptr) return power;
+    if (left <= 0.0) return {};
+    Numbers result = power;
+    for (std::size_t k = 0; k < power.size(); ++k)
+      result[k] = (segments * power[k] - (segments - left) * of_block[block]->power[k]) / left;
+    return result;
+  }
+};
+
+/// The second estimate of int C dt, and how far it lies from the first.
+void estimate_from_spectrum(const Blocks& blocks, const State& state, double integral,
+                            const Numbers& integral_leaving_out, double factor, double relative_error,
+                            GreenKuboRow& row) {
+  const BlockSpectra spectra(blocks);
+  if (spectra.segments == 0.0) return;
+  const auto fit =
+      statistics::fit_lorentzian(spectra.power, spectra.segment, components * spectra.segments, state.sample_interval);
+  row.spectrum_frequency = fit.highest_frequency;
+  row.spectrum_p_value = fit.p_value;
+  if (std::isnan(fit.integral)) return;
+  // The curvature of the likelihood gives a steadier error than the jackknife, which would refit a handful of blocks.
+  const Estimate estimate = {fit.integral, fit.integral_error, components * spectra.segments, fit.ordinates};
+  row.estimates[green_kubo_quantity("viscosity_spectrum")] = scaled(estimate, factor, relative_error);
+  Numbers leaving_out;
+  for (std::size_t b = 0; b < blocks.size() && blocks.size() >= 2; ++b)
+    leaving_out.push_back(statistics::refit_lorentzian(spectra.power_without(b), spectra.segment,
+                                                       components * spectra.segments_without(b), state.sample_interval,
+                                                       fit)
+                              .integral);
+  for (std::size_t b = 0; b < leaving_out.size(); ++b) leaving_out[b] = integral_leaving_out[b] - leaving_out[b];
+  const Estimate between = statistics::jackknife(integral - fit.integral, leaving_out);
+  row.spectrum_z = between.value / between.error;
+}
+
+void warn_of_cutoff(const Ending& ending, const std::string& what, double longest, const State& state,
+                    std::vector<std::string>& warnings) {
+  if (std::isnan(ending.decay.time) && state.cutoff == 0.0) {
+    warnings.push_back(fmt::format(
+        "No decay time of the {} was found within the {:.4g} that is correlated, and its integral runs over all of "
+        "them: lengthen {} or {}.",
+        what, longest, state.duration_key, state.length_key));
+  } else if (state.cutoff == 0.0 && cutoff_in_decay_times * ending.decay.time > longest) {
+    warnings.push_back(
+        fmt::format("The {} is integrated to its longest time {:.4g} only, which is less than {:.4g} decay times of "
+                    "{:.4g}: lengthen {}.",
+                    what, longest, cutoff_in_decay_times, ending.decay.time, state.length_key));
+  }
+}
+
+/// Everything that rests on the stresses.
+void estimate_from_stress(const Blocks& blocks, const State& state, GreenKuboResult& result) {
+  GreenKuboRow& row = result.row;
+  const std::optional<BlockCurves> stress = stress_of(blocks, state.sample_interval);
+  if (!stress) return;
+  const Numbers& times = stress->times();
+  const double longest = times.back();
+  const double factor = state.volume / state.temperature.value;
+  const double relative_error = state.temperature.error / state.temperature.value;
+  const Numbers all = stress->without(stress->blocks());
+  const Ending ending = ending_of(*stress, all, of_mean, state.cutoff);
+
+  // Twice the cut-off is asked of the correlation as a whole; where a block is left out the cut-off may lie later.
+  const double twice = 2.0 * ending.cutoff;
+  constexpr std::array places = {green_kubo_quantity("viscosity"),
+                                 green_kubo_quantity("viscosity_half_cutoff"),
+                                 green_kubo_quantity("viscosity_twice_cutoff"),
+                                 green_kubo_quantity("viscosity_kinetic"),
+                                 green_kubo_quantity("viscosity_cross"),
+                                 green_kubo_quantity("viscosity_potential"),
+                                 green_kubo_quantity("viscosity_xy"),
+                                 green_kubo_quantity("viscosity_difference"),
+                                 green_kubo_quantity("shear_modulus")};
+  const auto values_of = [&](const Numbers& numbers, const Ending& end) {
+    const auto to = [&](StressCurve curve, double time) { return stress->integral_to(numbers, curve, time); };
+    return std::array<double, places.size() + 1>{
+        to(of_mean, end.cutoff),
+        to(of_mean, 0.5 * end.cutoff),
+        twice > longest ? not_a_number : to(of_mean, std::min(2.0 * end.cutoff, longest)),
+        to(of_kinetic, end.cutoff),
+        to(of_cross, end.cutoff),
+        to(of_potential, end.cutoff),
+        to(of_xy, end.cutoff),
+        to(of_difference, end.cutoff),
+        stress->correlation(numbers, of_mean).front(),
+        end.decay.time};
+  };
+  const auto [estimates, leaving_out] = jackknife_of(*stress, of_mean, state.cutoff, ending, values_of);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    row.estimates[places[i]] = scaled(estimates[i], factor, relative_error);
+  row.estimates[green_kubo_quantity("decay_time")] = estimates.back();
+  row.cutoff = ending.cutoff;
+  row.decay_begin = ending.decay.begin;
+  row.decay_end = ending.decay.end;
+  result.decay_amplitude = factor * ending.decay.amplitude;
+
+  const Numbers errors = stress->errors();
+  const auto correlation = [&](StressCurve curve) {
+    return scaled_curve(stress->correlation(all, curve), stress->correlation(errors, curve), factor);
+  };
+  const auto integral = [&](StressCurve curve) {
+    return scaled_curve(stress->integral(all, curve), stress->integral(errors, curve), factor);
+  };
+  double total_time = 0.0;
+  for (const CorrelationBlock* block : blocks)
+    total_time += static_cast<double>(block->samples) * state.sample_interval;
+  StressCurves& curves = result.curves;
+  curves.time = times;
+  curves.xy = correlation(of_xy);
+  curves.difference = correlation(of_difference);
+  curves.mean = correlation(of_mean);
+  curves.integral = integral(of_mean);
+  curves.noise_envelope = envelope(times, curves.mean.value, components * total_time);
+  curves.noise_integral = integral(of_noise);
+  curves.kinetic = correlation(of_kinetic);
+  curves.cross = correlation(of_cross);
+  curves.potential = correlation(of_potential);
+
+  const std::span<const double> mean = stress->correlation(all, of_mean);
+  if (mean[1] < least_first_lag * mean[0]) {
+    row.warnings.push_back(
+        fmt::format("The stress is sampled too coarsely: its correlation falls to {:.2g} of its start from one sample "
+                    "to the next, and the integral misses what lies between; lower {} from {:.4g}.",
+                    mean[1] / mean[0], state.interval_key, state.sample_interval));
+  }
+  warn_of_cutoff(ending, "stress correlation", longest, state, row.warnings);
+  if (twice > longest) {
+    row.warnings.push_back(
+        fmt::format("Twice the cut-off, {:.4g}, lies beyond the longest time that is correlated, {:.4g}, and has no "
+                    "value: lengthen {}.",
+                    twice, longest, state.length_key));
+  }
+  if (stress->blocks() == 1) {
+    row.warnings.push_back(
+        fmt::format("There is one block of {:.4g} only, and no error without a second: lengthen {} or shorten {}.",
+                    total_time, state.duration_key, state.length_key));
+  }
+
+  estimate_from_spectrum(blocks, state, estimates[0].value, leaving_out[0], factor, relative_error, row);
+  if (std::isnan(row.estimates[green_kubo_quantity("viscosity_spectrum")].value)) {
+    row.warnings.push_back(
+        fmt::format("No Lorentzian was found at the low end of the stress spectrum: lengthen {}.", state.duration_key));
+  } else if (row.spectrum_p_value < least_spectrum_p_value) {
+    row.warnings.push_back(fmt::format(
+        "The stress spectrum below {:.3g} is no Lorentzian on a constant (p-value {:.2g}), and its viscosity "
+        "may be off by more than its error.",
+        row.spectrum_frequency, row.spectrum_p_value));
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------- what is further
+
+/// One of `others` of every block: its curve, and the estimate of its integral if that is a transport coefficient.
+OtherCurve other_of(const Blocks& blocks, std::size_t place, std::string name, double factor, double relative_error,
+                    const State& state, Estimate* coefficient, std::vector<std::string>& warnings) {
+  OtherCurve result;
+  result.name = std::move(name);
+  std::vector<const measure::Correlation*> known;
+  for (const CorrelationBlock* block : blocks)
+    known.push_back(place < block->others.size() ? &block->others[place] : nullptr);
+  if (known.empty() || std::count(known.begin(), known.end(), nullptr) > 0) return result;
+  result.time = common_times(known, state.sample_interval);
+  const auto points = static_cast<std::ptrdiff_t>(result.time.size());
+  if (points < 2) return result;
+  std::vector<Numbers> numbers;
+  Numbers weights;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    numbers.emplace_back(known[b]->value.begin(), known[b]->value.begin() + points);
+    weights.push_back(static_cast<double>(blocks[b]->samples));
+  }
+  const BlockCurves curves(result.time, std::move(numbers), std::move(weights));
+  const Numbers all = curves.without(curves.blocks()), errors = curves.errors();
+  result.correlation = scaled_curve(curves.correlation(all, 0), curves.correlation(errors, 0), factor);
+  result.integral = scaled_curve(curves.integral(all, 0), curves.integral(errors, 0), factor);
+  if (coefficient == nullptr) return result;
+
+  // Its own cut-off always: a cut-off that was asked for is that of the viscosity.
+  const Ending ending = ending_of(curves, all, 0, 0.0);
+  const auto [estimates, leaving_out] =
+      jackknife_of(curves, 0, 0.0, ending, [&](const Numbers& means, const Ending& end) {
+        return std::array<double, 1>{curves.integral_to(means, 0, end.cutoff)};
+      });
+  *coefficient = scaled(estimates[0], factor, relative_error);
+  State own = state;
+  own.cutoff = 0.0;
+  warn_of_cutoff(ending, result.name + " correlation", result.time.back(), own, warnings);
+  return result;
+}
+
+void estimate_others(const GreenKuboPoint& point, const Blocks& blocks, const State& state, GreenKuboResult& result) {
+  const double temperature = state.temperature.value;
+  const double relative_error = state.temperature.error / temperature;
+  std::size_t place = 0;
+  const auto add = [&](std::string name, double factor, double factor_error, Estimate* coefficient) {
+    result.others.push_back(
+        other_of(blocks, place++, std::move(name), factor, factor_error, state, coefficient, result.row.warnings));
+  };
+  if (point.diffusion) add("velocity velocity", 1.0, 0.0, &result.row.estimates[green_kubo_quantity("self_diffusion")]);
+  if (point.thermal_conductivity) {
+    add("heat_flux heat_flux", state.volume / (temperature * temperature), 2.0 * relative_error,
+        &result.row.estimates[green_kubo_quantity("thermal_conductivity")]);
+  }
+  for (const std::string& pair : point.pairs) add(pair, state.volume, 0.0, nullptr);
+}
+
+// ------------------------------------------------------------------------------------------------------------- the row
+
+GreenKuboRow empty_row() {
+  GreenKuboRow row;
+  row.energy_per_particle = not_a_number;
+  row.estimates.fill(unknown);
+  for (double* const each : {&row.spectrum_z, &row.cutoff, &row.decay_begin, &row.decay_end, &row.spectrum_frequency,
+                             &row.spectrum_p_value, &row.step, &row.energy_drift, &row.largest_energy_error})
+    *each = not_a_number;
+  return row;
+}
+
+GreenKuboRow row_head(const GreenKuboPoint& point, double duration, int replicas) {
+  GreenKuboRow row = empty_row();
+  row.energy_per_particle = point.energy_per_particle;
+  row.particles = point.particles;
+  row.step = point.step;
+  row.sample_interval = sample_interval(point);
+  row.duration = duration;
+  row.replicas = replicas;
+  return row;
+}
+
+/// Whether the viscosity is to be believed, once all estimates are there.
+void conclude(const State& state, GreenKuboRow& row) {
+  const bool long_enough = row.duration >= least_duration_in_cutoffs * row.cutoff;
+  const bool chosen = state.cutoff > 0.0 || !std::isnan(row.estimates[green_kubo_quantity("decay_time")].value);
+  const bool with_error = !std::isnan(row.estimates[green_kubo_quantity("viscosity")].error);
+  row.status = long_enough && chosen && with_error ? RowStatus::ok : RowStatus::too_short;
+  if (row.duration < least_duration_in_cutoffs * row.cutoff) {
+    row.warnings.push_back(fmt::format("A recording of {:.6g} holds less than {:.0f} cut-offs of {:.4g}: lengthen {}.",
+                                       row.duration, least_duration_in_cutoffs, row.cutoff, state.duration_key));
+  }
+}
+
+Blocks blocks_of(std::span<const GreenKuboRecord> replicas) {
+  Blocks blocks;
+  for (const GreenKuboRecord& record : replicas)
+    for (const CorrelationBlock& block : record.blocks) blocks.push_back(&block);
+  return blocks;
+}
+
+/// Mean of what `of` makes of the equilibrium samples.
+template <class Quantity>
+Estimate equilibrium_mean(std::span<const GreenKuboRecord> replicas, Quantity of) {
+  std::vector<Numbers> series;
+  for (const GreenKuboRecord& record : replicas) {
+    Numbers& values = series.emplace_back();
+    for (const EquilibriumSample& sample : record.samples) values.push_back(of(sample));
+  }
+  return statistics::pooled_mean(series);
+}
+
+/// The recorded time of the shortest replica; what was asked for, where they agree but for rounding.
+double recorded_time(const GreenKuboPoint& point, std::span<const GreenKuboRecord> replicas) {
+  if (replicas.empty()) return point.duration;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const GreenKuboRecord& record : replicas)
+    shortest = std::min(shortest, record.interval * static_cast<double>(record.samples.size()));
+  return std::abs(shortest - point.duration) > 1e-6 * point.duration ? shortest : point.duration;
+}
+
+State state_of(const GreenKuboPoint& point, std::span<const GreenKuboRecord> replicas) {
+  State state;
+  state.volume = static_cast<double>(point.particles) / point.density;
+  state.temperature = equilibrium_mean(replicas, [](const EquilibriumSample& sample) { return sample[0]; });
+  state.sample_interval = sample_interval(point);
+  state.cutoff = point.cutoff;
+  state.duration = recorded_time(point, replicas);
+  return state;
+}
+
+}  // namespace
+
+GreenKuboResult summarize(const GreenKuboPoint& point, std::span<const GreenKuboRecord> replicas) {
+  const State state = state_of(point, replicas);
+  GreenKuboResult result;
+  GreenKuboRow& row = result.row;
+  row = row_head(point, state.duration, static_cast<int>(replicas.size()));
+  const Blocks blocks = blocks_of(replicas);
+  row.blocks = static_cast<int>(blocks.size());
+  if (!replicas.empty()) row.energy_drift = row.largest_energy_error = 0.0;
+  for (const GreenKuboRecord& record : replicas) {
+    if (std::abs(record.energy_drift) > std::abs(row.energy_drift)) row.energy_drift = record.energy_drift;
+    row.largest_energy_error = std::max(row.largest_energy_error, record.largest_energy_error);
+  }
+  for (std::size_t i = 0; i < equilibrium_observables.size(); ++i) {
+    const auto place =
+        std::find(green_kubo_quantities.begin(), green_kubo_quantities.end(), equilibrium_observables[i]);
+    row.estimates[static_cast<std::size_t>(place - green_kubo_quantities.begin())] =
+        equilibrium_mean(replicas, [i](const EquilibriumSample& sample) { return sample[i]; });
+  }
+  row.estimates[green_kubo_quantity("pressure")] =
+      equilibrium_mean(replicas, [](const EquilibriumSample& sample) { return sample[1] + sample[2]; });
+  if (blocks.empty()) {
+    row.warnings.push_back(fmt::format("No block of correlations is complete after {:.6g}: lengthen {} or shorten {}.",
+                                       state.duration, state.duration_key, state.length_key));
+  } else {
+    estimate_from_stress(blocks, state, result);
+    estimate_others(point, blocks, state, result);
+  }
+  conclude(state, row);
+  return result;
+}
+
+GreenKuboRow failed_row(const GreenKuboPoint& point, std::string message) {
+  GreenKuboRow row = row_head(point, point.duration, point.replicas);
+  row.status = RowStatus::failed;
+  row.failure = std::move(message);
+  return row;
+}
+
+Estimate current_viscosity(const GreenKuboPoint& point, std::span<const GreenKuboRecord> replicas) {
+  const Blocks blocks = blocks_of(replicas);
+  if (blocks.size() < 2) return unknown;
+  const State state = state_of(point, replicas);
+  const std::optional<BlockCurves> stress = stress_of(blocks, state.sample_interval);
+  if (!stress) return unknown;
+  const Ending ending = ending_of(*stress, stress->without(stress->blocks()), of_mean, state.cutoff);
+  const auto [estimates, leaving_out] =
+      jackknife_of(*stress, of_mean, state.cutoff, ending, [&](const Numbers& numbers, const Ending& end) {
+        return std::array<double, 1>{stress->integral_to(numbers, of_mean, end.cutoff)};
+      });
+  return scaled(estimates[0], state.volume / state.temperature.value,
+                state.temperature.error / state.temperature.value);
+}
+
+GreenKuboResult summarize_series(const SampledSeries& series) {
+  const std::size_t samples = series.pxy.size();
+  if (samples == 0) throw BadInput("the stress series is empty");
+  if (series.stress_difference.size() != samples) {
+    throw BadInput(
+        fmt::format("the series of P_xy has {} values and that of (P_xx - P_yy)/2 has {}: they must be as many",
+                    samples, series.stress_difference.size()));
+  }
+  const auto above_zero = [](std::string_view name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw BadInput(fmt::format("the {} of the stress series is {}, and must be above 0", name, value));
+  };
+  above_zero("sample interval", series.sample_interval);
+  above_zero("volume", series.volume);
+  above_zero("kinetic temperature", series.kinetic_temperature);
+  State state;
+  state.duration = static_cast<double>(samples) * series.sample_interval;
+  const auto within = [&](std::string_view name, double value, double longest) {
+    if (!(value >= 0.0) || value > longest)
+      throw BadInput(fmt::format("the {} of the correlation of the stress series is {}, and must lie from 0 to {}",
+                                 name, value, longest));
+  };
+  within("length", series.length, state.duration);
+  const double length =
+      series.length > 0.0 ? series.length : std::min(longest_series_length, length_of_series * state.duration);
+  within("cut-off", series.cutoff, length);
+  const auto lags = static_cast<std::size_t>(length / series.sample_interval * (1.0 + 1e-9)) + 1;
+  const auto blocks = std::clamp<std::int64_t>(
+      static_cast<std::int64_t>(state.duration / (series_block_in_lengths * length)), 1, most_series_blocks);
+  const std::vector<CorrelationBlock> correlated =
+      correlate_series(series.pxy, series.stress_difference, std::min(lags, samples), blocks);
+
+  state.volume = series.volume;
+  state.temperature = {series.kinetic_temperature, 0.0, not_a_number, 0};
+  state.sample_interval = series.sample_interval;
+  state.cutoff = series.cutoff;
+  state.length_key = "--length";
+  state.interval_key = "the interval between samples";
+  state.duration_key = "the series";
+  GreenKuboResult result;
+  result.row = empty_row();
+  result.row.sample_interval = series.sample_interval;
+  result.row.duration = state.duration;
+  result.row.replicas = 1;
+  result.row.blocks = static_cast<int>(correlated.size());
+  result.row.estimates[green_kubo_quantity("kinetic_temperature")] = state.temperature;
+  Blocks pointers;
+  for (const CorrelationBlock& block : correlated) pointers.push_back(&block);
+  estimate_from_stress(pointers, state, result);
+  conclude(state, result.row);
+  return result;
+}
+
+}  // namespace lucy::cases

@@ -1,0 +1,265 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the input files of all experiments share: keys of every state and of every file, and the way from a file to the
+// structs of a case and back. `Row` is the struct of one state, `Input` that of a whole file.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lucy/errors.hpp"
+#include "lucy/files/schema.hpp"
+#include "lucy/motion/settings.hpp"
+
+namespace lucy::files {
+
+/// Several lists of keys in one.
+template <class Row, class... More>
+std::vector<BoundKey<Row>> joined(std::vector<BoundKey<Row>> keys, const More&... more) {
+  (keys.insert(keys.end(), more.begin(), more.end()), ...);
+  return keys;
+}
+
+/// `particles`: what a list of particle numbers means.
+template <class Row>
+std::vector<BoundKey<Row>> system_keys(Lists particles) {
+  return {
+      {{.section = "system",
+        .name = "particles",
+        .type = Type::integer,
+        .meaning = "Number of particles N. They start from a nearly square lattice, a square one if N is a perfect "
+                   "square; numbers that fill none are refused.",
+        .range = Range::at_least(4).at_most(1e8),
+        .required = true,
+        .lists = particles,
+        .replaces_rows = true},
+       stored_in(&Row::particles)},
+      {{.section = "system",
+        .name = "energy_per_particle",
+        .unit = "epsilon",
+        .meaning = "Internal energy (Phi + K)/N, potential plus peculiar kinetic energy, without self terms. It must "
+                   "exceed the potential energy of the lattice at the start (0.41305 at unit density and range 3).",
+        .range = Range::above(0),
+        .required = true,
+        .lists = Lists::multiply,
+        .replaces_rows = true},
+       stored_in(&Row::energy_per_particle)},
+      {{.section = "system",
+        .name = "density",
+        .unit = "1/sigma^2",
+        .meaning = "Number density n, particles per area.",
+        .range = Range::above(0)},
+       stored_in(&Row::density)},
+      {{.section = "system",
+        .name = "dimension",
+        .type = Type::integer,
+        .meaning = "Dimension of space.",
+        .range = Range::at_least(2).at_most(2)},
+       stored_in(&Row::dimension)},
+      {{.section = "system",
+        .name = "reading",
+        .type = Type::choice,
+        .meaning = "How the pair sum is read: \"md\", the particles are atoms.",
+        .choices = {"md"}},
+       stored_in(&Row::reading)},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> kernel_keys() {
+  return {
+      {{.section = "kernel",
+        .name = "name",
+        .type = Type::choice,
+        .meaning = "Weight function: \"lucy\", (5/(pi h^2)) (1 + 3r/h)(1 - r/h)^3.",
+        .choices = {"lucy"}},
+       stored_in(&Row::kernel)},
+      {{.section = "kernel",
+        .name = "range",
+        .unit = "sigma",
+        .meaning = "Range h, the distance at which the weight function ends. The box must be at least twice as large.",
+        .range = Range::above(0)},
+       stored_in(&Row::range)},
+  };
+}
+
+/// `entries_of`: the key whose list a list of steps follows.
+template <class Row>
+std::vector<BoundKey<Row>> integration_keys(const std::string& entries_of) {
+  return {
+      {{.section = "run",
+        .name = "integrator",
+        .type = Type::choice,
+        .meaning = "Classic fourth-order Runge-Kutta, or velocity Verlet (plain Newtonian motion only).",
+        .choices = names_of(motion::integrator_names)},
+       stored_by_name_in(&Row::integrator, motion::integrator_names)},
+      {{.section = "run",
+        .name = "step",
+        .unit = "time",
+        .meaning = "Time step.",
+        .range = Range::above(0).at_most(0.2),
+        .lists = Lists::one_per_entry,
+        .entries_of = entries_of},
+       stored_in(&Row::step)},
+  };
+}
+
+/// `equilibration`: what that key means; `entries_of` as above.
+template <class Row>
+std::vector<BoundKey<Row>> length_keys(const std::string& equilibration, const std::string& entries_of) {
+  return {
+      {{.section = "run",
+        .name = "equilibration",
+        .unit = "time",
+        .meaning = equilibration,
+        .range = Range::at_least(0),
+        .lists = Lists::one_per_entry,
+        .entries_of = entries_of},
+       stored_in(&Row::equilibration)},
+      {{.section = "run",
+        .name = "duration",
+        .unit = "time",
+        .meaning = "Time recorded after the equilibration, per replica.",
+        .range = Range::above(0),
+        .required = true,
+        .lists = Lists::one_per_entry,
+        .entries_of = entries_of},
+       stored_in(&Row::duration)},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> replica_keys() {
+  return {
+      {{.section = "run",
+        .name = "replicas",
+        .type = Type::integer,
+        .meaning = "Independent runs per row, from different random starts.",
+        .range = Range::at_least(1).at_most(10000)},
+       stored_in(&Row::replicas)},
+      {{.section = "run",
+        .name = "seed",
+        .type = Type::integer,
+        .meaning = "Seed of the random numbers; the same seed gives the same bits, with any number of threads.",
+        .range = Range::at_least(0)},
+       stored_in(&Row::seed)},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> tolerance_keys() {
+  return {
+      {{.section = "run",
+        .name = "energy_tolerance",
+        .unit = "epsilon",
+        .meaning = "Energy error per particle of one step above which the step is repeated in smaller parts.",
+        .range = Range::above(0)},
+       stored_in(&Row::energy_tolerance)},
+  };
+}
+
+/// The keys that are one for the whole file.
+template <class Input>
+std::vector<BoundKey<Input>> whole_keys() {
+  return {
+      {{.name = "title",
+        .type = Type::text,
+        .meaning = "What this experiment is, for people.",
+        .default_text = "empty",
+        .in_rows = false},
+       stored_in(&Input::title)},
+      {{.section = "run",
+        .name = "threads",
+        .type = Type::integer,
+        .meaning = "Threads to run on. Their number never changes a result.",
+        .range = Range::at_least(0).at_most(1024),
+        .default_text = "all cores",
+        .in_rows = false,
+        .changes_results = false},
+       stored_in(&Input::threads)},
+      {{.section = "run",
+        .name = "checkpoint_interval",
+        .unit = "seconds of wall time",
+        .meaning = "Time between checkpoints, from which an interrupted run resumes.",
+        .range = Range::above(0),
+        .in_rows = false,
+        .changes_results = false},
+       stored_in(&Input::checkpoint_interval)},
+  };
+}
+
+/// The first paragraph of an explanation; `command` as typed, without the program's name.
+inline std::string introduction_of(const std::string& command) {
+  return "Keys of an input file of `lucy " + command +
+         "`, in TOML. Reduced units: mass m, length sigma, energy epsilon and Boltzmann's constant k are one, so that "
+         "time is in units of sigma (m/epsilon)^(1/2). An integer may stand for a real. Any key can be set from the "
+         "command line, --set section.key=value, which beats the file and holds for every row.";
+}
+
+/// What [[point]] tables mean. `product`: what the rows are without them; `dropping`: the keys whose --set drops them.
+inline std::string point_tables_of(const std::string& product, const std::string& dropping) {
+  return "Without [[point]] tables, the rows of the result are " + product +
+         ". With [[point]] tables, each is one row: it may hold any key above but title, threads and "
+         "checkpoint_interval, as `duration = 500` or as `run.duration = 500`, and takes what it does not hold from "
+         "the "
+         "sections. Lists of numbers are refused inside a [[point]] table, and so is taking one from a section; a list "
+         "there is allowed when every table has a value of its own. Setting " +
+         dropping +
+         " with --set drops the [[point]] tables, so that the rows come from the sections again; setting another key "
+         "changes it in every row.";
+}
+
+/// All keys of a file in the order of explanation: what belongs to the whole file stands before the first section, or
+/// at the end of its section.
+template <class Input, class Row>
+std::vector<Key> arranged(const std::vector<BoundKey<Input>>& whole, const std::vector<BoundKey<Row>>& rows) {
+  std::vector<Key> keys;
+  for (const auto& bound : whole)
+    if (bound.key.section.empty()) keys.push_back(bound.key);
+  for (const auto& bound : rows) keys.push_back(bound.key);
+  for (const auto& bound : whole) {
+    if (bound.key.section.empty()) continue;
+    auto place = keys.begin();
+    for (auto key = keys.begin(); key != keys.end(); ++key)
+      if (key->section == bound.key.section) place = key + 1;
+    keys.insert(place, bound.key);
+  }
+  return keys;
+}
+
+/// Reads a file into its struct, whose rows are `points`; `check` refuses (BadInput) what cannot be run.
+template <class Input, class Row, class Check>
+Input read_input(const std::filesystem::path& file, std::span<const std::string> overrides, const Schema& schema,
+                 const std::vector<BoundKey<Row>>& keys, const Check& check) {
+  const Document document = read_document(file, overrides, schema);
+  Input input;
+  for (const auto& bound : whole_keys<Input>())
+    if (const auto value = shared_value(document, schema, bound.key.path())) bound.binding.set(input, *value);
+  for (const ResolvedRow& row : expand_rows(document, schema)) {
+    auto point = fill_row(row, keys);
+    try {
+      check(point);
+    } catch (const BadInput& refusal) {
+      throw BadInput(locate_refusal(refusal.what(), row, document, schema));
+    }
+    input.points.push_back(std::move(point));
+  }
+  return input;
+}
+
+/// `what` was run: "a sweep".
+template <class Input, class Row>
+std::string resolved_input(const std::string& what, const Schema& schema, const Input& input,
+                           const std::vector<BoundKey<Row>>& keys) {
+  std::vector<std::map<std::string, Value>> rows;
+  for (const Row& point : input.points) rows.push_back(values_of(point, keys));
+  return "# The resolved input of " + what + ", as Lucy ran it; it can be run again as it is.\n\n" +
+         resolved_text(schema, values_of(input, whole_keys<Input>()), rows);
+}
+
+}  // namespace lucy::files

@@ -1,0 +1,226 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `lucy green-kubo`: equilibrium states on the way of run_experiment.hpp, with viscosity.csv as the results file and
+// correlation.csv, pairs.csv and notes.txt as its companions; or, with --from-series, the same estimators on stresses
+// that another program sampled, which takes no time worth a checkpoint.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "lucy/errors.hpp"
+#include "lucy/files/atomic_file.hpp"
+#include "lucy/files/checkpoint.hpp"
+#include "lucy/files/directory_lock.hpp"
+#include "lucy/files/green_kubo_csv.hpp"
+#include "lucy/files/green_kubo_input.hpp"
+#include "lucy/files/green_kubo_text.hpp"
+#include "lucy/files/schema.hpp"
+#include "lucy/files/series_file.hpp"
+#include "program/closing.hpp"
+#include "program/commands.hpp"
+#include "program/green_kubo_point.hpp"
+#include "program/notes.hpp"
+#include "program/output_directory.hpp"
+#include "program/run_experiment.hpp"
+#include "program/scheduler.hpp"
+
+namespace lucy::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> result_names(std::size_t states) {
+  std::vector<std::string> names = {"viscosity.csv", "correlation.csv", "pairs.csv",       "notes.txt",
+                                    "input.toml",    "provenance.json", "correlation.png", "correlation.svg"};
+  for (std::size_t i = 0; i < states; ++i) names.push_back(point_file_name(i));
+  return names;
+}
+
+Drawing drawing_of(const fs::path& directory) {
+  return {"plot_green_kubo.py", {directory.string()}, directory / "correlation.png"};
+}
+
+Notes notes_of(const std::vector<cases::GreenKuboRow>& rows) {
+  Notes notes;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].status == cases::RowStatus::failed) notes.failures[i] = rows[i].failure;
+    if (!rows[i].warnings.empty()) notes.warnings[i] = rows[i].warnings;
+  }
+  return notes;
+}
+
+int print_rows(const fs::path& directory, const std::vector<cases::GreenKuboRow>& rows, const std::string& closing,
+               bool draw) {
+  print("{}", files::format_green_kubo(rows));
+  print("\n{}\n", closing);
+  std::fflush(stdout);
+  std::error_code error;
+  if (draw && !fs::exists(directory / "correlation.png", error)) program::draw({drawing_of(directory)});
+  print_files(directory, result_names(rows.size()));
+  const auto failed = std::count_if(
+      rows.begin(), rows.end(), [](const cases::GreenKuboRow& row) { return row.status == cases::RowStatus::failed; });
+  return tell_failures(static_cast<std::size_t>(failed), rows.size());
+}
+
+class GreenKubo final : public Experiment {
+ public:
+  GreenKubo(files::GreenKuboInput input, bool pictures) : input_(std::move(input)), pictures_(pictures) {}
+
+  std::string kind() const override { return "Green-Kubo run"; }
+  std::string resolved() const override { return files::green_kubo_resolved_toml(input_); }
+  std::string results_file() const override { return "viscosity.csv"; }
+  int threads() const override { return input_.threads; }
+  double checkpoint_interval() const override { return input_.checkpoint_interval; }
+  std::uint64_t seed() const override { return input_.points.front().seed; }
+  std::string generator() const override {
+    return "64-bit Mersenne twister (std::mt19937_64), one per replica, seeded from the seed, the replica's number, N "
+           "and E/N";
+  }
+
+  std::vector<StatePoint*> prepare(const fs::path& directory, const files::H5mdAuthorship& authorship) override {
+    std::vector<StatePoint*> points;
+    for (const auto& point : input_.points) {
+      points_.push_back(
+          std::make_unique<GreenKuboStatePoint>(point, directory / point_file_name(points_.size()), authorship));
+      points.push_back(points_.back().get());
+    }
+    return points;
+  }
+
+  std::vector<double> seconds_of_points() const override {
+    std::vector<double> seconds;
+    for (const auto& point : points_) seconds.push_back(point->seconds());
+    return seconds;
+  }
+
+  void write_companions(const fs::path& directory) override {
+    std::vector<cases::GreenKuboResult> results;
+    for (const auto& point : points_) {
+      results.push_back(point->result());
+      rows_.push_back(point->result().row);
+    }
+    files::write_correlation_csv(directory / "correlation.csv", results);
+    files::write_pairs_csv(directory / "pairs.csv", results);
+    write_notes(directory / "notes.txt", notes_of(rows_));
+  }
+
+  void write_results(const fs::path& directory) override {
+    files::write_viscosity_csv(directory / "viscosity.csv", rows_);
+  }
+
+  void read_back(const fs::path& directory) override {
+    const fs::path table = directory / "viscosity.csv";
+    rows_ = files::read_viscosity_csv(table);
+    const bool same =
+        std::equal(rows_.begin(), rows_.end(), input_.points.begin(), input_.points.end(),
+                   [](const cases::GreenKuboRow& row, const cases::GreenKuboPoint& point) {
+                     return row.particles == point.particles && row.energy_per_particle == point.energy_per_particle;
+                   });
+    if (!same)
+      throw BadInput(
+          fmt::format("{} does not hold the rows of {}", table.string(), (directory / "input.toml").string()));
+    const Notes notes = read_notes(directory / "notes.txt");
+    for (const auto& [row, reason] : notes.failures)
+      if (row < rows_.size() && rows_[row].status == cases::RowStatus::failed) rows_[row].failure = reason;
+    for (const auto& [row, sentences] : notes.warnings)
+      if (row < rows_.size()) rows_[row].warnings = sentences;
+  }
+
+  int print(const fs::path& directory, const std::string& closing, bool draw) override {
+    return print_rows(directory, rows_, closing, draw && pictures_);
+  }
+
+ private:
+  files::GreenKuboInput input_;
+  bool pictures_;
+  std::vector<std::unique_ptr<GreenKuboStatePoint>> points_;
+  std::vector<cases::GreenKuboRow> rows_;
+};
+
+/// The columns that are asked for, or else those with the usual names.
+cases::SampledSeries sampled_series(const SeriesRequest& request) {
+  files::ColumnFile file = files::read_columns(request.file);
+  cases::SampledSeries series;
+  const auto column = [&](const std::string& name) -> const std::vector<double>& {
+    return file.columns[files::find_column(file, name, request.file)];
+  };
+  if (request.difference && (request.pxx || request.pyy))
+    throw BadInput("--difference already is (Pxx - Pyy)/2: leave out --pxx and --pyy");
+  series.pxy = column(request.pxy);
+  if (request.difference) {
+    series.stress_difference = column(*request.difference);
+  } else {
+    const auto& pxx = column(request.pxx.value_or("pxx"));
+    const auto& pyy = column(request.pyy.value_or("pyy"));
+    series.stress_difference.resize(pxx.size());
+    for (std::size_t i = 0; i < pxx.size(); ++i) series.stress_difference[i] = 0.5 * (pxx[i] - pyy[i]);
+  }
+  const auto above_zero = [](const char* option, double value) {
+    if (!(value > 0.0)) throw BadInput(fmt::format("{} = {} must be above 0", option, value));
+    return value;
+  };
+  series.sample_interval = above_zero("--interval", request.interval);
+  series.volume = above_zero("--volume", request.volume);
+  series.kinetic_temperature = above_zero("--temperature", request.temperature);
+  if (request.length) series.length = above_zero("--length", *request.length);
+  if (request.cutoff) series.cutoff = above_zero("--cutoff", *request.cutoff);
+  return series;
+}
+
+/// What input.toml says of a series: enough to do it again.
+std::string series_record(const SeriesRequest& request, const cases::SampledSeries& series) {
+  const auto checksum = [&] {
+    const auto a = files::crc64(std::as_bytes(std::span(series.pxy)));
+    return files::crc64(std::as_bytes(std::span(series.stress_difference)), a);
+  };
+  std::string text = "# A stress series that was sampled elsewhere, analysed by lucy green-kubo --from-series.\n\n";
+  const auto line = [&](const char* key, const files::Value& value) {
+    text += fmt::format("{} = {}\n", key, files::toml_text(value));
+  };
+  line("file", fs::absolute(request.file).lexically_normal().string());
+  line("rows", static_cast<std::int64_t>(series.pxy.size()));
+  line("checksum", fmt::format("CRC-64 {:016x}", checksum()));
+  line("sample_interval", series.sample_interval);
+  line("volume", series.volume);
+  line("kinetic_temperature", series.kinetic_temperature);
+  if (series.length > 0.0) line("length", series.length);
+  if (series.cutoff > 0.0) line("cutoff", series.cutoff);
+  return text;
+}
+
+}  // namespace
+
+int green_kubo(const InputRequest& request, bool pictures) {
+  GreenKubo experiment(files::read_green_kubo(request.input, request.overrides), pictures);
+  return run_experiment(request, experiment);
+}
+
+int green_kubo_series(const SeriesRequest& request) {
+  const cases::SampledSeries series = sampled_series(request);
+  const std::string record = series_record(request, series);
+  const fs::path directory = request.out.value_or(fs::path("runs") / request.file.stem());
+  const auto look = [&] { look_at_directory(directory, record, "analysis of this series", "viscosity.csv"); };
+  look();
+  const cases::GreenKuboResult result = cases::summarize_series(series);
+
+  make_directory(directory);
+  const files::DirectoryLock lock(directory);
+  look();
+  files::write_file_atomically(directory / "input.toml", record);
+  files::write_correlation_csv(directory / "correlation.csv", {&result, 1});
+  write_notes(directory / "notes.txt", notes_of({result.row}));
+  files::write_viscosity_csv(directory / "viscosity.csv", {&result.row, 1});
+  return print_rows(
+      directory, {result.row},
+      fmt::format("{} rows of {}, one every {}.", series.pxy.size(), request.file.string(), series.sample_interval),
+      request.pictures);
+}
+
+}  // namespace lucy::program
