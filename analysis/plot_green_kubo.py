@@ -48,14 +48,12 @@ SHOWN_CUTOFFS = 2.6  # of the running integral
 
 
 def read_curves(path):
-    """[(state, {column: array})] in the order of the file."""
-    states = []
-    for row in lucy_tables.read_rows(path, STATE + COLUMNS):
-        values = lucy_tables.numbers(path, row, STATE + COLUMNS)
-        if not states or not lucy_tables.same_state(states[-1][0], values):
-            states.append((values, []))
-        states[-1][1].append([values[column] for column in COLUMNS])
-    return [(state, dict(zip(COLUMNS, np.array(rows).T))) for state, rows in states]
+    """{point: {column: array}}; the points are the lines of viscosity.csv, from 1."""
+    points = {}
+    for row in lucy_tables.read_rows(path, ("point",) + COLUMNS):
+        values = lucy_tables.numbers(path, row, ("point",) + COLUMNS)
+        points.setdefault(int(values["point"]), []).append([values[column] for column in COLUMNS])
+    return {point: dict(zip(COLUMNS, np.array(rows).T)) for point, rows in points.items()}
 
 
 def differing_conditions(directory):
@@ -333,8 +331,8 @@ def main():
         lucy_tables.fail(f"{table} has no rows")
     curves = read_curves(options.directory / "correlation.csv")
     states, notes = [], []
-    for row in rows:
-        found = next((curve for state, curve in curves if lucy_tables.same_state(state, row)), None)
+    for point, row in enumerate(rows, 1):
+        found = curves.get(point)
         if found is not None and np.isfinite(found["C_mean"]).sum() > 1:
             states.append((row, found))
         else:

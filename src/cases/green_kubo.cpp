@@ -22,10 +22,12 @@ namespace {
 constexpr double longest_sample_interval = 0.2;  // at E = N/2 part of the stress is forgotten by t = 2
 constexpr double longest_length = 400.0;
 constexpr double length_of_duration = 0.2;
-constexpr std::int64_t least_block_in_lengths = 5;
+constexpr double least_block_in_lengths = 2.5;
 constexpr std::int64_t most_blocks = 16;
 constexpr std::int64_t most_segment = 32768;  // samples in one spectrum
 constexpr double usual_interval = 2.0;
+constexpr double most_samples = 1e14;
+constexpr double longest_correlation = 1e8;  // samples
 constexpr std::int64_t fewest_intervals = 10;
 
 /// The same state as a Couette point at rest: what they share is checked and seeded in one place.
@@ -128,15 +130,25 @@ bool needs_heat_flux(const GreenKuboPoint& point) {
   return point.thermal_conductivity || names_in_pairs(point, "heat_flux_x") || names_in_pairs(point, "heat_flux_y");
 }
 
+/// Without the lags beyond `longest`, which the last level of a multiple-tau correlator reaches.
+measure::Correlation cut_at(measure::Correlation correlation, double longest) {
+  const auto end = std::upper_bound(correlation.lag.begin(), correlation.lag.end(), longest);
+  const auto kept = static_cast<std::size_t>(end - correlation.lag.begin());
+  for (auto* values : {&correlation.lag, &correlation.value, &correlation.mean_a, &correlation.mean_b})
+    values->resize(std::min(values->size(), kept));
+  correlation.pairs.resize(kept);
+  return correlation;
+}
+
 /// Either correlator, for a pair of numbers.
 class PairCorrelator {
  public:
-  PairCorrelator(CorrelationMethod method, std::size_t lags, measure::Means means) : means_(means) {
+  PairCorrelator(CorrelationMethod method, std::size_t lags) : longest_lag_(static_cast<double>(lags - 1)) {
     if (method == CorrelationMethod::fft) {
       correlator_.emplace<measure::FftCorrelator>(lags);
     } else {
       measure::MultipleTauCorrelator::Settings settings;
-      settings.longest_lag = static_cast<double>(lags - 1);
+      settings.longest_lag = longest_lag_;
       correlator_.emplace<measure::MultipleTauCorrelator>(settings);
     }
   }
@@ -146,7 +158,14 @@ class PairCorrelator {
   }
   void add(double a) { add(a, a); }
   measure::Correlation result() const {
-    return std::visit([&](const auto& correlator) { return correlator.result(means_); }, correlator_);
+    return std::visit([&](const auto& correlator) { return cut_at(correlator.result(), longest_lag_); }, correlator_);
+  }
+  /// Of quantities whose mean is zero: nobody asks for it.
+  measure::Correlation result_without_means() const {
+    measure::Correlation correlation = result();
+    correlation.mean_a.clear();
+    correlation.mean_b.clear();
+    return correlation;
   }
   void save(ArchiveWriter& archive) const {
     std::visit([&](const auto& correlator) { correlator.save(archive); }, correlator_);
@@ -156,7 +175,7 @@ class PairCorrelator {
   }
 
  private:
-  measure::Means means_;
+  double longest_lag_;
   std::variant<measure::FftCorrelator, measure::MultipleTauCorrelator> correlator_{measure::FftCorrelator(1)};
 };
 
@@ -164,10 +183,13 @@ class PairCorrelator {
 class BlockCorrelators {
  public:
   explicit BlockCorrelators(const GreenKuboPoint& point)
-      : point_(point), spectrum_xy_(segment_samples(point)), spectrum_difference_(segment_samples(point)) {
+      : particles_(static_cast<double>(point.particles)),
+        longest_lag_(static_cast<double>(lag_count(point) - 1)),
+        reverse_noise_(point.method, lag_count(point)),
+        spectrum_xy_(segment_samples(point)),
+        spectrum_difference_(segment_samples(point)) {
     const std::size_t lags = lag_count(point);
-    for (std::size_t i = 0; i < stress_correlations; ++i)
-      stress_.emplace_back(point.method, lags, measure::Means::known_zero);
+    for (std::size_t i = 0; i < stress_correlations; ++i) stress_.emplace_back(point.method, lags);
     if (point.diffusion) {
       measure::MultipleTauCorrelator::Settings settings;
       settings.components = 2 * static_cast<std::size_t>(point.particles);
@@ -175,11 +197,10 @@ class BlockCorrelators {
       velocity_.emplace(settings);
     }
     if (point.thermal_conductivity)
-      for (std::size_t d = 0; d < 2; ++d) heat_.emplace_back(point.method, lags, measure::Means::known_zero);
+      for (std::size_t d = 0; d < 2; ++d) heat_.emplace_back(point.method, lags);
     for (const std::string& pair : point.pairs) {
       pairs_.push_back(parse_pair(pair));
-      const bool zero = mean_is_zero(pairs_.back()[0]) || mean_is_zero(pairs_.back()[1]);
-      others_.emplace_back(point.method, lags, zero ? measure::Means::known_zero : measure::Means::subtracted);
+      others_.emplace_back(point.method, lags);
     }
   }
 
@@ -198,6 +219,7 @@ class BlockCorrelators {
     stress_[StressCorrelation::difference_kinetic].add(difference_kinetic);
     stress_[StressCorrelation::difference_potential].add(difference_potential);
     stress_[StressCorrelation::pure_noise].add(pxy, stress_difference);
+    reverse_noise_.add(stress_difference, pxy);
     spectrum_xy_.add(pxy);
     spectrum_difference_.add(stress_difference);
     if (velocity_) velocity_->add(velocities);
@@ -211,17 +233,16 @@ class BlockCorrelators {
   CorrelationBlock result() const {
     CorrelationBlock block;
     block.samples = samples_;
-    for (std::size_t i = 0; i < stress_correlations; ++i) block.stress[i] = stress_[i].result();
+    for (std::size_t i = 0; i < stress_correlations; ++i) block.stress[i] = stress_[i].result_without_means();
+    block.stress[StressCorrelation::pure_noise] =
+        mean_correlation(block.stress[StressCorrelation::pure_noise], reverse_noise_.result());
     block.spectrum = mean_spectrum(spectrum_xy_.result(), spectrum_difference_.result());
     if (velocity_) {
-      block.others.push_back(velocity_->result());
-      for (double& value : block.others.back().value) value *= 0.5 / static_cast<double>(point_.particles);
+      block.others.push_back(cut_at(velocity_->result(), longest_lag_));
+      for (double& value : block.others.back().value) value *= 0.5 / particles_;
     }
     if (!heat_.empty()) {
-      block.others.push_back(heat_[0].result());
-      const measure::Correlation y = heat_[1].result();
-      for (std::size_t i = 0; i < y.value.size(); ++i)
-        block.others.back().value[i] = 0.5 * (block.others.back().value[i] + y.value[i]);
+      block.others.push_back(mean_correlation(heat_[0].result_without_means(), heat_[1].result()));
     }
     for (const auto& correlator : others_) block.others.push_back(correlator.result());
     return block;
@@ -235,6 +256,11 @@ class BlockCorrelators {
   void load(ArchiveReader& archive) {
     samples_ = archive.get<std::int64_t>();
     for_all([&](auto& accumulator) { accumulator.load(archive); }, *this);
+  }
+
+  static measure::Correlation mean_correlation(measure::Correlation a, const measure::Correlation& b) {
+    for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] = 0.5 * (a.value[k] + b.value[k]);
+    return a;
   }
 
   static measure::Spectrum mean_spectrum(measure::Spectrum a, const measure::Spectrum& b) {
@@ -253,6 +279,7 @@ class BlockCorrelators {
   template <class Action, class Self>
   static void for_all(Action action, Self& self) {
     for (auto& accumulator : self.stress_) action(accumulator);
+    action(self.reverse_noise_);
     action(self.spectrum_xy_);
     action(self.spectrum_difference_);
     if (self.velocity_) action(*self.velocity_);
@@ -260,9 +287,11 @@ class BlockCorrelators {
     for (auto& accumulator : self.others_) action(accumulator);
   }
 
-  GreenKuboPoint point_;
+  double particles_;
+  double longest_lag_;
   std::int64_t samples_ = 0;
   std::vector<PairCorrelator> stress_;
+  PairCorrelator reverse_noise_;
   measure::Periodogram spectrum_xy_;
   measure::Periodogram spectrum_difference_;
   std::optional<measure::MultipleTauCorrelator> velocity_;
@@ -275,6 +304,8 @@ void save_correlation(ArchiveWriter& archive, const measure::Correlation& correl
   archive.put_sequence(correlation.lag);
   archive.put_sequence(correlation.value);
   archive.put_sequence(correlation.pairs);
+  archive.put_sequence(correlation.mean_a);
+  archive.put_sequence(correlation.mean_b);
 }
 
 measure::Correlation load_correlation(ArchiveReader& archive) {
@@ -282,6 +313,8 @@ measure::Correlation load_correlation(ArchiveReader& archive) {
   archive.get_sequence(correlation.lag);
   archive.get_sequence(correlation.value);
   archive.get_sequence(correlation.pairs);
+  archive.get_sequence(correlation.mean_a);
+  archive.get_sequence(correlation.mean_b);
   return correlation;
 }
 
@@ -343,8 +376,9 @@ std::size_t lag_count(const GreenKuboPoint& point) {
 }
 
 std::int64_t block_count(const GreenKuboPoint& point) {
-  const auto least = least_block_in_lengths * static_cast<std::int64_t>(lag_count(point));
-  return std::clamp<std::int64_t>(recorded_samples(point) / least, 1, most_blocks);
+  const double least = least_block_in_lengths * static_cast<double>(lag_count(point));
+  const double blocks = static_cast<double>(recorded_samples(point)) / least;
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(blocks), 1, most_blocks);
 }
 
 std::int64_t block_samples(const GreenKuboPoint& point) { return recorded_samples(point) / block_count(point); }
@@ -360,7 +394,10 @@ std::int64_t interval_count(const GreenKuboPoint& point) {
 std::uint64_t replica_seed(const GreenKuboPoint& point, int replica) { return replica_seed(at_rest(point), replica); }
 
 void validate(const GreenKuboPoint& point) {
-  validate(at_rest(point));
+  CouettePoint rest = at_rest(point);
+  // Steps of the preparation count too.
+  if (point.preparation > 0.0 && std::isfinite(point.preparation)) rest.equilibration += point.preparation;
+  validate(rest);
   const auto refuse = [](const std::string& message) { throw BadInput(message); };
   const auto at_least_zero = [&](const char* key, double value) {
     if (!(value >= 0.0) || !std::isfinite(value)) refuse(fmt::format("{} = {} must be 0 or above", key, value));
@@ -372,13 +409,20 @@ void validate(const GreenKuboPoint& point) {
     refuse(fmt::format("run.energy_band = {} must be above 0", point.energy_band));
   if (point.replicas < 1) refuse(fmt::format("run.replicas = {} must be at least 1", point.replicas));
   const double interval = sample_interval(point);
+  if (point.frame_interval > 0.0) {
+    rest.sample_interval = interval;
+    rest.equilibration = 0.0;
+    validate(rest);
+  }
+  if (static_cast<double>(recorded_samples(point)) > most_samples)
+    refuse(fmt::format("run.duration = {} makes more than {} samples", point.duration, most_samples));
   const double memory = stress_memory(point);
   if (interval > memory * (1.0 + 1e-9)) {
     const char* key = point.sample_interval > 0.0 ? "output.sample_interval" : "run.step";
     refuse(fmt::format(
-        "{} = {} must be at most {:.3g}, the time in which a thermal particle crosses a quarter of the range: "
+        "{} = {} must be at most {:.4f}, the time in which a thermal particle crosses a quarter of the range: "
         "the stress would be forgotten between two samples",
-        key, point.sample_interval > 0.0 ? point.sample_interval : point.step, memory));
+        key, point.sample_interval > 0.0 ? point.sample_interval : point.step, std::floor(1e4 * memory) / 1e4));
   }
   if (point.length > 0.0) {
     if (point.length > point.duration)
@@ -387,6 +431,8 @@ void validate(const GreenKuboPoint& point) {
       refuse(
           fmt::format("correlation.length = {} must be at least the time between samples, {}", point.length, interval));
   }
+  if (static_cast<double>(lag_count(point)) > longest_correlation)
+    refuse(fmt::format("correlation.length = {} is more than {} samples", point.length, longest_correlation));
   const double longest = static_cast<double>(lag_count(point) - 1) * interval;
   if (point.cutoff > longest * (1.0 + 1e-9)) {
     refuse(
@@ -433,7 +479,9 @@ struct GreenKuboRun::Implementation {
     motion::Shear shear;
     shear.strain_rate = preparation_rate;
     shear.thermostat = motion::Thermostat::isoenergetic;
-    trajectory.emplace(kernel, start, shear, motion::Integrator::runge_kutta_4, motion::Watch{}, team);
+    motion::Watch watch;
+    watch.energy_tolerance = point.energy_tolerance;
+    trajectory.emplace(kernel, start, shear, motion::Integrator::runge_kutta_4, watch, team);
   }
 
   void make_resting() {
@@ -442,6 +490,7 @@ struct GreenKuboRun::Implementation {
     motion::Watch watch;
     watch.energy_tolerance = point.energy_tolerance;
     watch.rescale = false;
+    watch.energy_band = std::numeric_limits<double>::infinity();  // watch_energy() knows better
     trajectory.emplace(kernel, start, shear, point.integrator, watch, team);
   }
 
@@ -508,20 +557,24 @@ struct GreenKuboRun::Implementation {
             0.5 * pair.virial.trace() / trajectory->volume(), pair.potential_energy / n};
   }
 
+  /// Against the energy that was asked for, from the end of the preparation on.
   void watch_energy() {
-    record.energy_drift = (trajectory->energy() - energy_at_start) / static_cast<double>(point.particles);
-    record.largest_energy_error = std::max(record.largest_energy_error, std::abs(record.energy_drift));
-    if (!(std::abs(record.energy_drift) <= point.energy_band)) {
+    const double energy = trajectory->energy() / static_cast<double>(point.particles);
+    const double error = energy - point.energy_per_particle;
+    if (!(std::abs(error) <= point.energy_band)) {
       throw RunFailed(fmt::format(
-          "at time {:.6g} the energy per particle has left the band of run.energy_band = {} about its start "
-          "(by {:.3g}); use a smaller run.step than {}",
-          trajectory->time(), point.energy_band, record.energy_drift, point.step));
+          "at time {:.6g} the energy per particle is {:.6g}, outside the band of run.energy_band = {} about "
+          "system.energy_per_particle = {}; use a smaller run.step than {}",
+          trajectory->time(), energy, point.energy_band, point.energy_per_particle, point.step));
     }
+    if (!recording()) return;
+    if (record.samples.empty()) energy_at_start = energy;
+    record.energy_drift = energy - energy_at_start;
+    record.largest_energy_error = std::max(record.largest_energy_error, std::abs(error));
   }
 
   void run_at_rest() {
     trajectory->renew_list(point.step);
-    if (done == preparation_intervals + rest_intervals) energy_at_start = trajectory->energy();
     for (std::int64_t step = 1; step <= steps_per_interval; ++step) {
       const bool sampled_now = recording() && step % steps_per_sample == 0;
       // The energy is looked at once an interval: a whole state is what a checkpoint holds, and what recording begins
@@ -532,8 +585,8 @@ struct GreenKuboRun::Implementation {
       trajectory->advance(point.step, wanted);
       if (sampled_now) take_sample();
     }
-    if (!recording()) return;
     watch_energy();
+    if (!recording()) return;
     record.samples.push_back(observe());
   }
 
@@ -677,6 +730,7 @@ std::vector<CorrelationBlock> correlate_series(std::span<const double> pxy, std:
     measure::FftCorrelator correlate_xy(lags);
     measure::FftCorrelator correlate_difference(lags);
     measure::FftCorrelator correlate_noise(lags);
+    measure::FftCorrelator correlate_reverse_noise(lags);
     measure::Periodogram spectrum_xy(BlockCorrelators::segment_samples(usual));
     measure::Periodogram spectrum_difference(BlockCorrelators::segment_samples(usual));
     for (std::int64_t i = begin; i < end; ++i) {
@@ -684,6 +738,7 @@ std::vector<CorrelationBlock> correlate_series(std::span<const double> pxy, std:
       correlate_xy.add(pxy[at]);
       correlate_difference.add(stress_difference[at]);
       correlate_noise.add(pxy[at], stress_difference[at]);
+      correlate_reverse_noise.add(stress_difference[at], pxy[at]);
       spectrum_xy.add(pxy[at]);
       spectrum_difference.add(stress_difference[at]);
     }
@@ -691,7 +746,8 @@ std::vector<CorrelationBlock> correlate_series(std::span<const double> pxy, std:
     block.samples = end - begin;
     block.stress[StressCorrelation::xy] = correlate_xy.result();
     block.stress[StressCorrelation::difference] = correlate_difference.result();
-    block.stress[StressCorrelation::pure_noise] = correlate_noise.result();
+    block.stress[StressCorrelation::pure_noise] =
+        BlockCorrelators::mean_correlation(correlate_noise.result(), correlate_reverse_noise.result());
     block.spectrum = BlockCorrelators::mean_spectrum(spectrum_xy.result(), spectrum_difference.result());
     results.push_back(std::move(block));
   }

@@ -27,6 +27,8 @@ using Blocks = std::vector<const CorrelationBlock*>;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr Estimate unknown = {not_a_number, not_a_number, not_a_number, 0};
 
+constexpr int fewest_degrees = 5;                   // of freedom, for an error by the jackknife alone
+constexpr double largest_mean = 4.0;                // of a stress that should have none, in its errors
 constexpr double least_first_lag = 0.5;             // of C(0), below which samples are too far apart
 constexpr double least_spectrum_p_value = 0.001;    // below which the spectrum is called of another shape
 constexpr std::size_t most_envelope_points = 4096;  // the envelope costs their square
@@ -157,7 +159,7 @@ Estimate scaled(Estimate estimate, double factor, double relative_error = 0.0) {
 
 Curve scaled_curve(std::span<const double> values, std::span<const double> errors, double factor) {
   Curve curve;
-  if (values.empty() || std::isnan(values.front())) return curve;
+  if (values.empty() || std::isnan(values.back())) return curve;
   for (const double value : values) curve.value.push_back(factor * value);
   for (const double error : errors) curve.error.push_back(factor * error);
   return curve;
@@ -292,12 +294,35 @@ void warn_of_cutoff(const Ending& ending, const std::string& what, double longes
         "No decay time of the {} was found within the {:.4g} that is correlated, and its integral runs over all of "
         "them: lengthen {} or {}.",
         what, longest, state.duration_key, state.length_key));
+  } else if (state.cutoff > 0.0 && state.cutoff < cutoff_in_decay_times * ending.decay.time) {
+    warnings.push_back(fmt::format(
+        "The {} is integrated to the cut-off {:.4g} that was asked for, which is less than {:.4g} decay times "
+        "of {:.4g}: part of the integral is missing.",
+        what, state.cutoff, cutoff_in_decay_times, ending.decay.time));
   } else if (state.cutoff == 0.0 && cutoff_in_decay_times * ending.decay.time > longest) {
     warnings.push_back(
         fmt::format("The {} is integrated to its longest time {:.4g} only, which is less than {:.4g} decay times of "
                     "{:.4g}: lengthen {}.",
                     what, longest, cutoff_in_decay_times, ending.decay.time, state.length_key));
   }
+}
+
+/// Few blocks may agree by chance: with fewer than fewest_degrees degrees of freedom the errors of the integral are not
+/// less than what pure noise would give it.
+void keep_above_noise(const StressCurves& curves, int degrees_of_freedom, GreenKuboRow& row) {
+  if (degrees_of_freedom < 1 || degrees_of_freedom >= fewest_degrees) return;
+  const auto keep = [&](std::size_t place, double cutoff) {
+    double& error = row.estimates[place].error;
+    const double noise = statistics::value_at(curves.time, curves.noise_envelope, cutoff);
+    if (error < noise) error = noise;
+  };
+  keep(green_kubo_quantity("viscosity"), row.cutoff);
+  keep(green_kubo_quantity("viscosity_half_cutoff"), 0.5 * row.cutoff);
+  keep(green_kubo_quantity("viscosity_twice_cutoff"), 2.0 * row.cutoff);
+  row.warnings.push_back(
+      fmt::format("There are {} blocks only, and errors rest on {} degrees of freedom; those of the integral are not "
+                  "less than what pure noise would give it. More replicas or a longer recording make more blocks.",
+                  degrees_of_freedom + 1, degrees_of_freedom));
 }
 
 /// Everything that rests on the stresses.
@@ -368,6 +393,8 @@ void estimate_from_stress(const Blocks& blocks, const State& state, GreenKuboRes
   curves.cross = correlation(of_cross);
   curves.potential = correlation(of_potential);
 
+  keep_above_noise(curves, static_cast<int>(stress->blocks()) - 1, row);
+
   const std::span<const double> mean = stress->correlation(all, of_mean);
   if (mean[1] < least_first_lag * mean[0]) {
     row.warnings.push_back(
@@ -402,9 +429,36 @@ void estimate_from_stress(const Blocks& blocks, const State& state, GreenKuboRes
 
 // ----------------------------------------------------------------------------------------------------- what is further
 
+/// Takes the means off the products of a pair: zero where symmetry says so, else the mean over all blocks. A mean of
+/// each block's own would take the slow part of the correlation with it.
+void take_means_off(std::span<const measure::Correlation* const> known, std::span<const double> weights,
+                    const std::array<std::size_t, 2>& pair, std::vector<Numbers>& numbers) {
+  double mean_a = 0.0;
+  double mean_b = 0.0;
+  double total = 0.0;
+  for (std::size_t b = 0; b < known.size(); ++b) {
+    mean_a += weights[b] * known[b]->mean_a.front();
+    mean_b += weights[b] * known[b]->mean_b.front();
+    total += weights[b];
+  }
+  mean_a = mean_is_zero(pair[0]) ? 0.0 : mean_a / total;
+  mean_b = mean_is_zero(pair[1]) ? 0.0 : mean_b / total;
+  for (std::size_t b = 0; b < known.size(); ++b)
+    for (std::size_t k = 0; k < numbers[b].size(); ++k)
+      numbers[b][k] += mean_a * mean_b - mean_a * known[b]->mean_b[k] - mean_b * known[b]->mean_a[k];
+}
+
+/// Where a transport coefficient and its cut-off go.
+struct Coefficient {
+  Estimate* estimate;
+  double* cutoff;
+};
+
 /// One of `others` of every block: its curve, and the estimate of its integral if that is a transport coefficient.
+/// `pair`: the factors whose means are to be taken off.
 OtherCurve other_of(const Blocks& blocks, std::size_t place, std::string name, double factor, double relative_error,
-                    const State& state, Estimate* coefficient, std::vector<std::string>& warnings) {
+                    const State& state, Coefficient* coefficient, const std::optional<std::array<std::size_t, 2>>& pair,
+                    std::vector<std::string>& warnings) {
   OtherCurve result;
   result.name = std::move(name);
   std::vector<const measure::Correlation*> known;
@@ -420,6 +474,7 @@ OtherCurve other_of(const Blocks& blocks, std::size_t place, std::string name, d
     numbers.emplace_back(known[b]->value.begin(), known[b]->value.begin() + points);
     weights.push_back(static_cast<double>(blocks[b]->samples));
   }
+  if (pair) take_means_off(known, weights, *pair, numbers);
   const BlockCurves curves(result.time, std::move(numbers), std::move(weights));
   const Numbers all = curves.without(curves.blocks()), errors = curves.errors();
   result.correlation = scaled_curve(curves.correlation(all, 0), curves.correlation(errors, 0), factor);
@@ -432,7 +487,8 @@ OtherCurve other_of(const Blocks& blocks, std::size_t place, std::string name, d
       jackknife_of(curves, 0, 0.0, ending, [&](const Numbers& means, const Ending& end) {
         return std::array<double, 1>{curves.integral_to(means, 0, end.cutoff)};
       });
-  *coefficient = scaled(estimates[0], factor, relative_error);
+  *coefficient->estimate = scaled(estimates[0], factor, relative_error);
+  *coefficient->cutoff = ending.cutoff;
   State own = state;
   own.cutoff = 0.0;
   warn_of_cutoff(ending, result.name + " correlation", result.time.back(), own, warnings);
@@ -443,16 +499,19 @@ void estimate_others(const GreenKuboPoint& point, const Blocks& blocks, const St
   const double temperature = state.temperature.value;
   const double relative_error = state.temperature.error / temperature;
   std::size_t place = 0;
-  const auto add = [&](std::string name, double factor, double factor_error, Estimate* coefficient) {
-    result.others.push_back(
-        other_of(blocks, place++, std::move(name), factor, factor_error, state, coefficient, result.row.warnings));
+  const auto add = [&](std::string name, double factor, double factor_error, Coefficient* coefficient,
+                       const std::optional<std::array<std::size_t, 2>>& pair = std::nullopt) {
+    result.others.push_back(other_of(blocks, place++, std::move(name), factor, factor_error, state, coefficient, pair,
+                                     result.row.warnings));
   };
-  if (point.diffusion) add("velocity velocity", 1.0, 0.0, &result.row.estimates[green_kubo_quantity("self_diffusion")]);
-  if (point.thermal_conductivity) {
-    add("heat_flux heat_flux", state.volume / (temperature * temperature), 2.0 * relative_error,
-        &result.row.estimates[green_kubo_quantity("thermal_conductivity")]);
-  }
-  for (const std::string& pair : point.pairs) add(pair, state.volume, 0.0, nullptr);
+  GreenKuboRow& row = result.row;
+  Coefficient diffusion = {&row.estimates[green_kubo_quantity("self_diffusion")], &row.self_diffusion_cutoff};
+  Coefficient conductivity = {&row.estimates[green_kubo_quantity("thermal_conductivity")],
+                              &row.thermal_conductivity_cutoff};
+  if (point.diffusion) add("velocity velocity", 1.0, 0.0, &diffusion);
+  if (point.thermal_conductivity)
+    add("heat_flux heat_flux", state.volume / (temperature * temperature), 2.0 * relative_error, &conductivity);
+  for (const std::string& pair : point.pairs) add(pair, state.volume, 0.0, nullptr, parse_pair(pair));
 }
 
 // ------------------------------------------------------------------------------------------------------------- the row
@@ -461,8 +520,9 @@ GreenKuboRow empty_row() {
   GreenKuboRow row;
   row.energy_per_particle = not_a_number;
   row.estimates.fill(unknown);
-  for (double* const each : {&row.spectrum_z, &row.cutoff, &row.decay_begin, &row.decay_end, &row.spectrum_frequency,
-                             &row.spectrum_p_value, &row.step, &row.energy_drift, &row.largest_energy_error})
+  for (double* const each : {&row.spectrum_z, &row.cutoff, &row.self_diffusion_cutoff, &row.thermal_conductivity_cutoff,
+                             &row.decay_begin, &row.decay_end, &row.spectrum_frequency, &row.spectrum_p_value,
+                             &row.step, &row.energy_drift, &row.largest_energy_error})
     *each = not_a_number;
   return row;
 }
@@ -608,6 +668,11 @@ GreenKuboResult summarize_series(const SampledSeries& series) {
   const double length =
       series.length > 0.0 ? series.length : std::min(longest_series_length, length_of_series * state.duration);
   within("cut-off", series.cutoff, length);
+  if (series.length > 0.0 && length < series.sample_interval)
+    throw BadInput(
+        fmt::format("the length of the correlation of the stress series is {}, less than the interval between "
+                    "samples, {}",
+                    length, series.sample_interval));
   const auto lags = static_cast<std::size_t>(length / series.sample_interval * (1.0 + 1e-9)) + 1;
   const auto blocks = std::clamp<std::int64_t>(
       static_cast<std::int64_t>(state.duration / (series_block_in_lengths * length)), 1, most_series_blocks);
@@ -628,6 +693,16 @@ GreenKuboResult summarize_series(const SampledSeries& series) {
   result.row.replicas = 1;
   result.row.blocks = static_cast<int>(correlated.size());
   result.row.estimates[green_kubo_quantity("kinetic_temperature")] = state.temperature;
+  const auto look_at_mean = [&](std::string_view name, const Numbers& values) {
+    const Estimate mean = statistics::pooled_mean(std::span(&values, 1));
+    if (!(std::abs(mean.value) > largest_mean * mean.error)) return;
+    result.row.warnings.push_back(fmt::format(
+        "The mean of {} is {:.4g}, {:.1f} of its standard errors from zero: at equilibrium it has none, and "
+        "here its square is integrated too.",
+        name, mean.value, std::abs(mean.value) / mean.error));
+  };
+  look_at_mean("P_xy", series.pxy);
+  look_at_mean("(P_xx - P_yy)/2", series.stress_difference);
   Blocks pointers;
   for (const CorrelationBlock& block : correlated) pointers.push_back(&block);
   estimate_from_stress(pointers, state, result);

@@ -169,7 +169,7 @@ Route published_route(const GreenKuboRow& ours, const PublishedGreenKubo& theirs
   const double pressure = z_of(green_kubo_quantity("pressure"), theirs.pressure);
   const double kinetic = z_of(green_kubo_quantity("pressure_kinetic"), theirs.pressure_kinetic);
   if (std::isfinite(pressure) && std::isfinite(kinetic))
-    route.note += fmt::format("{}its pressure differs by {:+.1f}, the kinetic part by {:+.1f}",
+    route.note += fmt::format("{}its pressure differs by {:+.1f} standard errors, the kinetic part by {:+.1f}",
                               route.note.empty() ? "" : "; ", pressure, kinetic);
   return route;
 }
@@ -270,7 +270,9 @@ std::vector<SideBySide> side_by_side(std::span<const TableRow> sweep, std::span<
     against_green_kubo("nemd", state.fit.viscosity, state.fit.note);
     state.routes.push_back({"green-kubo", reference.value, reference.error, not_a_number});
     // The same data gave both: the jackknife knows the error of their difference.
-    state.routes.push_back({"green-kubo-spectrum", spectrum.value, spectrum.error, 0.0 - ours.spectrum_z,
+    state.routes.push_back({"green-kubo-spectrum", spectrum.value, spectrum.error,
+                            0.0 - ours.spectrum_z,  // no minus zero
+
                             "of the same data, which its difference allows for"});
     if (model_of_the_paper) {
       for (const PublishedGreenKubo& theirs : published)

@@ -25,13 +25,15 @@ using cases::GreenKuboRow;
 using cases::StressCurves;
 
 /// The columns behind the quantities that hold one real number each, and where it lies.
-constexpr std::array<std::pair<std::string_view, double GreenKuboRow::*>, 6> decisions = {{
+constexpr std::array<std::pair<std::string_view, double GreenKuboRow::*>, 8> decisions = {{
     {"spectrum_z", &GreenKuboRow::spectrum_z},
     {"cutoff", &GreenKuboRow::cutoff},
     {"decay_begin", &GreenKuboRow::decay_begin},
     {"decay_end", &GreenKuboRow::decay_end},
     {"spectrum_frequency", &GreenKuboRow::spectrum_frequency},
     {"spectrum_p_value", &GreenKuboRow::spectrum_p_value},
+    {"self_diffusion_cutoff", &GreenKuboRow::self_diffusion_cutoff},
+    {"thermal_conductivity_cutoff", &GreenKuboRow::thermal_conductivity_cutoff},
 }};
 constexpr std::array<std::pair<std::string_view, double GreenKuboRow::*>, 3> settings = {{
     {"step", &GreenKuboRow::step},
@@ -66,7 +68,9 @@ void add_point(CsvLine& line, const Curve& curve, std::size_t i) {
   line.add(at(curve.error, i));
 }
 
-void add_state(CsvLine& line, const GreenKuboRow& row) {
+/// `point`: the line of viscosity.csv, from 1, since two states may have the same energy and number of particles.
+void add_state(CsvLine& line, std::size_t point, const GreenKuboRow& row) {
+  line.add(static_cast<std::int64_t>(point));
   line.add(row.energy_per_particle);
   line.add(row.particles);
 }
@@ -94,7 +98,8 @@ void write_viscosity_csv(const std::filesystem::path& path, std::span<const Gree
   std::string text = fmt::format("{}\n", fmt::join(viscosity_columns(), ","));
   CsvLine line;
   for (const GreenKuboRow& row : rows) {
-    add_state(line, row);
+    line.add(row.energy_per_particle);
+    line.add(row.particles);
     for (const auto& estimate : row.estimates) {
       line.add(estimate.value);
       line.add(estimate.error);
@@ -133,17 +138,18 @@ std::vector<GreenKuboRow> read_viscosity_csv(const std::filesystem::path& path) 
 }
 
 void write_correlation_csv(const std::filesystem::path& path, std::span<const GreenKuboResult> results) {
-  std::vector<std::string> columns = {"energy_per_particle", "particles", "time"};
+  std::vector<std::string> columns = {"point", "energy_per_particle", "particles", "time"};
   for (const auto& [name, member] : first_curves) add_with_error(columns, name);
   columns.emplace_back("noise_envelope");
   for (const auto& [name, member] : last_curves) add_with_error(columns, name);
 
   std::string text = fmt::format("{}\n", fmt::join(columns, ","));
   CsvLine line;
-  for (const GreenKuboResult& result : results) {
+  for (std::size_t point = 0; point < results.size(); ++point) {
+    const GreenKuboResult& result = results[point];
     const StressCurves& curves = result.curves;
     for (std::size_t i = 0; i < curves.time.size(); ++i) {
-      add_state(line, result.row);
+      add_state(line, point + 1, result.row);
       line.add(curves.time[i]);
       for (const auto& [name, member] : first_curves) add_point(line, curves.*member, i);
       line.add(at(curves.noise_envelope, i));
@@ -156,12 +162,14 @@ void write_correlation_csv(const std::filesystem::path& path, std::span<const Gr
 
 void write_pairs_csv(const std::filesystem::path& path, std::span<const GreenKuboResult> results) {
   if (std::ranges::all_of(results, [](const GreenKuboResult& result) { return result.others.empty(); })) return;
-  std::string text = "energy_per_particle,particles,pair,time,correlation,correlation_error,integral,integral_error\n";
+  std::string text =
+      "point,energy_per_particle,particles,pair,time,correlation,correlation_error,integral,integral_error\n";
   CsvLine line;
-  for (const GreenKuboResult& result : results) {
+  for (std::size_t point = 0; point < results.size(); ++point) {
+    const GreenKuboResult& result = results[point];
     for (const cases::OtherCurve& other : result.others) {
       for (std::size_t i = 0; i < other.time.size(); ++i) {
-        add_state(line, result.row);
+        add_state(line, point + 1, result.row);
         line.add(other.name);
         line.add(other.time[i]);
         add_point(line, other.correlation, i);

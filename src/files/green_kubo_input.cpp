@@ -24,8 +24,9 @@ std::vector<BoundKey<P>> run_keys() {
         .name = "preparation",
         .unit = "time",
         .meaning = fmt::format(
-            "Time run first under shear at the rate {} and constant energy, rounded to a whole number of box lengths, "
-            "so that nothing is left of the lattice at the start; 0 starts at rest from the lattice.",
+            "Time run first under shear at the rate {} and constant energy, rounded to a whole number of box lengths "
+            "(less than half of one means none at all), so that nothing is left of the lattice at the start; 0 starts "
+            "at rest from the lattice.",
             cases::preparation_rate),
         .range = Range::at_least(0)},
        stored_in(&P::preparation)}};
@@ -92,7 +93,8 @@ std::vector<BoundKey<P>> correlation_keys() {
         .type = Type::texts,
         .meaning = fmt::format(
             "Further correlations <a(0) b(t)> to be written to pairs.csv, each as the two names with a space between, "
-            "such as [\"pressure pressure\"]. Names: {}. Means that symmetry does not make zero are taken off.",
+            "such as [\"pressure pressure\"]. Names: {}. Means that symmetry does not make zero are taken off; in pairs.csv such a correlation is "
+            "multiplied by the volume.",
             fmt::join(cases::sampled_quantities, ", "))},
        stored_in(&P::pairs)},
   };

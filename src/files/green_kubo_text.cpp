@@ -74,6 +74,11 @@ std::string table_text(const Rows& rows, const std::vector<Column>& columns, Las
   return table.text();
 }
 
+bool known(const Rows& rows, std::size_t quantity) {
+  return std::ranges::any_of(rows,
+                             [&](const GreenKuboRow* row) { return !std::isnan(row->estimates[quantity].value); });
+}
+
 std::string details(const Rows& rows) {
   const Column viscosity = estimate("viscosity", green_kubo_quantity("viscosity"), true);
   std::string text = "\nHow the viscosity depends on the cut-off, and what the spectrum says:\n";
@@ -95,22 +100,25 @@ std::string details(const Rows& rows) {
                             plain("interval", &GreenKuboRow::sample_interval, 4),
                             {"blocks", [](const GreenKuboRow& row) { return fmt::format("{}", row.blocks); }},
                             plain("drift of E/N", &GreenKuboRow::energy_drift, 2),
-                            plain("largest error", &GreenKuboRow::largest_energy_error, 2),
-                            estimate("self-diffusion", green_kubo_quantity("self_diffusion")),
-                            estimate("conductivity", green_kubo_quantity("thermal_conductivity"))});
+                            plain("largest error", &GreenKuboRow::largest_energy_error, 2)});
+  if (known(rows, green_kubo_quantity("self_diffusion")) || known(rows, green_kubo_quantity("thermal_conductivity"))) {
+    text += "\nOther transport coefficients, each up to a cut-off of its own:\n";
+    text += table_text(rows, {estimate("self-diffusion", green_kubo_quantity("self_diffusion")),
+                              plain("up to", &GreenKuboRow::self_diffusion_cutoff, 4),
+                              estimate("conductivity", green_kubo_quantity("thermal_conductivity")),
+                              plain("up to", &GreenKuboRow::thermal_conductivity_cutoff, 4)});
+  }
   return text;
 }
 
 /// What the columns mean, in the order in which they stand.
 std::string explanation(const Rows& rows) {
-  const auto known = [&](std::size_t quantity) {
-    return std::ranges::any_of(rows,
-                               [&](const GreenKuboRow* row) { return !std::isnan(row->estimates[quantity].value); });
-  };
   std::string text = wrapped(
       "",
-      "In parentheses one standard error, in units of the last digits: by the jackknife over blocks of all replicas, "
-      "each correlated apart, with Student's factor where there are fewer than ten degrees of freedom.");
+      "Reduced units. In parentheses one standard error, in units of the last digits: by the jackknife over blocks of "
+      "all "
+      "replicas, each correlated apart, with Student's factor where there are fewer than ten degrees of freedom; of kT "
+      "and pressures by blocking.");
   text += wrapped("cut-off: ",
                   fmt::format("unless it is set, {} decay times of the exponential fitted to the correlation function, "
                               "of which {:.2f} % is left there: chosen by the decay, never by the integral. Half and "
@@ -118,9 +126,10 @@ std::string explanation(const Rows& rows) {
                               cases::cutoff_in_decay_times, 100.0 * std::exp(-cases::cutoff_in_decay_times)));
   text += wrapped("spectrum: ",
                   "a Lorentzian on a constant, fitted by maximum likelihood to the low-frequency end of the stress "
-                  "spectrum; a small p-value says that it has another shape. difference: viscosity - spectrum in "
+                  "spectrum, the error from the curvature of the likelihood; a small p-value says that it has another "
+                  "shape. difference: viscosity - spectrum in "
                   "standard errors of that difference, both coming from the same data.");
-  if (known(green_kubo_quantity("self_diffusion")) || known(green_kubo_quantity("thermal_conductivity")))
+  if (known(rows, green_kubo_quantity("self_diffusion")) || known(rows, green_kubo_quantity("thermal_conductivity")))
     text += wrapped("",
                     "self-diffusion, conductivity: up to a cut-off of their own, by the same rule. In two dimensions "
                     "long-time tails make such integrals grow as the logarithm of time, without a limit: numbers for "
@@ -157,14 +166,14 @@ std::string fit_text(const SideBySide& state) {
   if (std::isnan(fit.viscosity.value)) {
     text += wrapped("Extrapolation: ", "none.");
   } else {
-    text +=
-        wrapped("Extrapolation: ",
-                fmt::format("eta_0 + eta_2 rate^2 up to rate {}: eta_0 = {} by the fit alone, eta_2 = {}, chi "
-                            "squared {:.1f} for {} degrees of freedom, p-value {}; eta_0 = {} by "
-                            "eta_0/sqrt(1 + (rate/rate_0)^2).",
-                            format_plain(fit.highest_rate), format_with_error(fit.viscosity.value, fit.fit_error),
-                            format_with_error(fit.curvature, fit.curvature_error), fit.chi_squared,
-                            fit.degrees_of_freedom, format_plain(fit.p_value, 2), format_plain(fit.other_model, 4)));
+    text += wrapped("Extrapolation: ",
+                    fmt::format("eta_0 + eta_2 rate^2 up to rate {}: eta_0 = {} by the fit alone, eta_2 = {}, chi "
+                                "squared {:.1f} for {} degree{} of freedom, p-value {}; eta_0 = {} by "
+                                "eta_0/sqrt(1 + (rate/rate_0)^2).",
+                                format_plain(fit.highest_rate), format_with_error(fit.viscosity.value, fit.fit_error),
+                                format_with_error(fit.curvature, fit.curvature_error), fit.chi_squared,
+                                fit.degrees_of_freedom, fit.degrees_of_freedom == 1 ? "" : "s",
+                                format_plain(fit.p_value, 2), format_plain(fit.other_model, 4)));
     text += wrapped("  rates fitted: ", rates_of(state, FitPart::fitted));
   }
   for (const FitPart part : {FitPart::beyond, FitPart::unstable, FitPart::no_error})
@@ -208,9 +217,10 @@ std::string format_green_kubo(std::span<const GreenKuboRow> rows) {
       LastColumn::words);
   if (!finished.empty()) text += details(finished) + '\n' + explanation(finished);
   if (std::ranges::any_of(rows, [](const GreenKuboRow& row) { return row.status == cases::RowStatus::too_short; }))
-    text += wrapped("short: ", fmt::format("recorded for less than {} cut-offs per replica, or too short for an error "
-                                           "bar.",
-                                           cases::least_duration_in_cutoffs));
+    text +=
+        wrapped("short: ", fmt::format("recorded for less than {} cut-offs per replica, too short for an error bar, "
+                                       "or without a decay time to cut off by.",
+                                       cases::least_duration_in_cutoffs));
   for (const GreenKuboRow& row : rows) {
     for (const std::string& warning : row.warnings)
       text += wrapped("warning: ", fmt::format("{}: {}", state_of(row), warning));
@@ -227,7 +237,8 @@ std::string format_side_by_side(std::span<const SideBySide> states) {
     text += fmt::format("{}\n{}{}\n", state_text(state.particles, state.energy_per_particle), routes_text(state),
                         fit_text(state));
   return text + wrapped("",
-                        "In parentheses one standard error, in units of the last digits. difference: from Green-Kubo, "
+                        "Reduced units. In parentheses one standard error, in units of the last digits. difference: "
+                        "from Green-Kubo, "
                         "in combined standard errors. The error of the extrapolation is that of the weighted fit, "
                         "widened by the square root of chi squared over its degrees of freedom where that is above "
                         "one, and in quadrature the difference between both models.");

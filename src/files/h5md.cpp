@@ -302,6 +302,7 @@ void write_samples(hid_t group, std::span<const std::string_view> names,
 }
 
 constexpr std::string_view about_averages = "each value is the average over the steps that end at its step and time";
+constexpr std::string_view about_instants = "each value is that of its step and time";
 
 void write_observables(hid_t observables, const std::string& name, const cases::CouettePoint& point,
                        const H5mdReplica& replica) {
@@ -322,8 +323,8 @@ void write_observables(hid_t observables, const std::string& name, const cases::
   const Handle group = create_group(observables, name);
   const cases::GreenKuboRecord& record = *replica.record;
   write_samples(group, cases::equilibrium_observables, std::span(record.samples),
-                {replica.first_recorded_step, cases::interval_steps(point), point.step}, Samples::averages);
-  add_attribute(group, "description", about_averages);
+                {replica.first_recorded_step, cases::interval_steps(point), point.step}, Samples::instants);
+  add_attribute(group, "description", about_instants);
   add_attribute(group, "steps", record.steps);
   add_attribute(group, "subdivided_steps", record.subdivided_steps);
   add_attribute(group, "energy_drift", record.energy_drift);
@@ -333,7 +334,7 @@ void write_observables(hid_t observables, const std::string& name, const cases::
   write_samples(stress, cases::sampled_quantities, replica.series,
                 {replica.first_recorded_step, std::llround(cases::sample_interval(point) / point.step), point.step},
                 Samples::instants);
-  add_attribute(stress, "description", "each value is that of its step and time");
+  add_attribute(stress, "description", about_instants);
 }
 
 void write_particles(hid_t particles, const std::string& name, double strain_rate, const FrameSpool& frames) {
@@ -437,12 +438,16 @@ void with_file_image(const Write& write, const Use& use) {
   use(std::span(*static_cast<const std::byte* const*>(image), size));
 }
 
+/// The library has one state for the whole process, and Debian's build of it is not meant for two threads at once.
+std::mutex& library_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 template <class Point, class Replica>
 void write_file(const std::filesystem::path& path, const Point& point, std::span<const Replica> replicas,
                 const H5mdAuthorship& authorship) {
-  // The library has one state for the whole process, and Debian's build of it is not meant for two threads at once.
-  static std::mutex library;
-  const std::scoped_lock turn(library);
+  const std::scoped_lock turn(library_mutex());
   const Quiet quiet;
   try {
     // Made in memory and written here: the library itself does not survive a disk that refuses.

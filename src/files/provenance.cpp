@@ -114,7 +114,7 @@ void write_provenance(const std::filesystem::path& path, const Provenance& prove
   add("wall_seconds_of_points", fmt::format("[{}]", points));
   add("wall_seconds_note",
       json_string("of_this_session: since the program was started last; of_points: of all sessions, summed over the "
-                  "replicas of each row of table.csv"),
+                  "replicas of each row of the results"),
       true);
   write_file_atomically(path, text + "}\n");
 }

@@ -428,4 +428,14 @@ Document read_document(const std::filesystem::path& file, std::span<const std::s
   return document;
 }
 
+bool has_section(const std::filesystem::path& file, std::string_view name) {
+  try {
+    return toml::parse(file_text(file))[name].is_table();
+  } catch (const toml::parse_error&) {
+    return false;
+  } catch (const BadInput&) {
+    return false;
+  }
+}
+
 }  // namespace lucy::files

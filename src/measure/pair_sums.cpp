@@ -37,6 +37,10 @@ Correlation PairSums::correlation(std::span<const double> lag, const Reference& 
     result.lag.push_back(lag[k]);
     result.value.push_back(product[k] / count + of_means);
     result.pairs.push_back(pairs[k]);
+    if (components == 1) {
+      result.mean_a.push_back(reference.a[0] + a[k] / count);
+      result.mean_b.push_back(reference.b[0] + b[k] / count);
+    }
   }
   return result;
 }

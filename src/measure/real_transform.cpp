@@ -4,6 +4,7 @@
 
 #include <fftw3.h>
 
+#include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -12,12 +13,6 @@
 namespace lucy::measure {
 
 namespace {
-
-/// FFTW makes and destroys plans one thread at a time; only their execution may overlap.
-std::mutex& planner() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 fftw_complex* as_fftw(RealTransform::Spectrum& spectrum) { return reinterpret_cast<fftw_complex*>(spectrum.data()); }
 
@@ -28,7 +23,6 @@ struct RealTransform::Plans {
   fftw_plan backward = nullptr;
 
   ~Plans() {
-    const std::lock_guard lock(planner());
     fftw_destroy_plan(forward);
     fftw_destroy_plan(backward);
   }
@@ -38,9 +32,8 @@ RealTransform::RealTransform(std::size_t length) : length_(length), plans_(std::
   // Any arrays of the same alignment will do at execution.
   Sequence x(length);
   Spectrum spectrum(frequencies());
-  const auto size = static_cast<int>(length);
-  {
-    const std::lock_guard lock(planner());
+  if (length <= static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    const auto size = static_cast<int>(length);
     plans_->forward = fftw_plan_dft_r2c_1d(size, x.data(), as_fftw(spectrum), FFTW_ESTIMATE);
     plans_->backward = fftw_plan_dft_c2r_1d(size, as_fftw(spectrum), x.data(), FFTW_ESTIMATE);
   }
@@ -51,7 +44,8 @@ RealTransform::RealTransform(std::size_t length) : length_(length), plans_(std::
 RealTransform::~RealTransform() = default;
 
 std::shared_ptr<const RealTransform> RealTransform::of(std::size_t length) {
-  // Kept to the end: to plan takes as long as hundreds of transforms.
+  // Kept to the end: to plan takes as long as hundreds of transforms. FFTW makes plans one thread at a time, and nobody
+  // else makes or destroys any; their execution may overlap.
   static std::mutex mutex;
   static std::map<std::size_t, std::shared_ptr<const RealTransform>> known;
   const std::lock_guard lock(mutex);

@@ -26,8 +26,6 @@ constexpr double acceleration_margin = 1.5;
 // After a step whose worst error is this much below the tolerance, the next is tried with half as many substeps
 // (a fourth-order step twice as long errs 32 times as much).
 constexpr double ease_factor = 1.0 / 64.0;
-// Velocity Verlet has gone astray when the energy per particle is this far from its start.
-constexpr double verlet_band = 0.01;
 
 }  // namespace
 
@@ -184,11 +182,11 @@ bool Trajectory<D>::try_step(double dt, md::Wanted wanted) {
   last_error_ = std::abs(energy() - energy_before - (next_.numbers[energy_input] - input_before)) / n;
   if (integrator_ == Integrator::velocity_verlet) {
     // A symplectic step of fixed length errs to and fro in a narrow band: watch the band, and leave the step alone.
-    if (wanted == md::Wanted::everything && !(std::abs(energy() - conserved_) <= verlet_band * n)) {
+    if (wanted == md::Wanted::everything && !(std::abs(energy() - conserved_) <= watch_.energy_band * n)) {
       throw RunFailed(
           fmt::format("at time {:.6g} the energy has left a band of {} per particle about its start; use a smaller "
                       "run.step than {}",
-                      time_, verlet_band, dt));
+                      time_, watch_.energy_band, dt));
     }
   } else {
     spent_ = rescales() && !(rescaling_target() > 0.0);
@@ -200,7 +198,7 @@ bool Trajectory<D>::try_step(double dt, md::Wanted wanted) {
   std::swap(now_, next_);
   time_ += dt;
   list_age_ += dt;
-  report_.worst_energy_error = std::max(report_.worst_energy_error, last_error_);
+  if (std::isfinite(last_error_)) report_.worst_energy_error = std::max(report_.worst_energy_error, last_error_);
   if (rescales()) rescale();
   return true;
 }
@@ -278,7 +276,7 @@ void Trajectory<D>::advance(double dt, md::Wanted wanted) {
   while (pieces > 0) {
     const bool near = list_lasts(piece);
     if (near && try_step(piece, wanted)) {
-      worst = std::max(worst, last_error_);
+      worst = std::isfinite(last_error_) ? std::max(worst, last_error_) : watch_.energy_tolerance;
       --pieces;
       continue;
     }

@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
-#include <fstream>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,9 @@
 #include "lucy/archive.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
+#include "lucy/files/schema.hpp"
 #include "lucy/files/table_text.hpp"
+#include "lucy/measure/correlator.hpp"
 #include "program/commands.hpp"
 #include "program/couette_point.hpp"
 #include "program/green_kubo_point.hpp"
@@ -36,9 +39,10 @@ using files::format_plain;
 constexpr double measured_seconds = 0.2;
 
 // What is measured must not last, nor fill the memory, however large the point: a particle's step costs about the same
-// in a smaller system, and in a sample of fewer steps.
+// in a smaller system, in an interval of fewer steps, and with fewer times to correlate.
 constexpr std::int64_t most_particles = 1'000'000;
 constexpr int most_steps = 10;
+constexpr std::int64_t most_lags = 1000;
 
 std::string_view thermostat_name(motion::Thermostat thermostat) {
   for (const auto& [name, value] : motion::thermostat_names)
@@ -136,10 +140,17 @@ Planned planned(const cases::CouettePoint& point) {
 }
 
 Planned planned(const cases::GreenKuboPoint& point) {
+  const auto steps = std::min<std::int64_t>(std::llround(cases::sample_interval(point) / point.step), most_steps);
+  const double sample = static_cast<double>(steps) * point.step;
+  const auto lags = std::clamp<std::int64_t>(static_cast<std::int64_t>(cases::lag_count(point)) - 1, 1, most_lags);
   cases::GreenKuboPoint measurable = point;
   measurable.preparation = 0.0;  // what takes long is at rest
   measurable.equilibration = 0.0;
-  measurable.frame_interval = 0.0;
+  measurable.sample_interval = sample;
+  measurable.frame_interval = static_cast<double>(most_steps / steps) * sample;  // no interval is longer
+  measurable.length = static_cast<double>(lags) * sample;
+  measurable.cutoff = 0.0;
+  measurable.duration = 10.0 * measurable.length;
   measurable.particles = std::min(point.particles, most_particles);
   return {std::make_unique<GreenKuboStatePoint>(point, "", files::H5mdAuthorship{}),
           std::make_unique<GreenKuboStatePoint>(measurable, "", files::H5mdAuthorship{})};
@@ -195,7 +206,8 @@ struct DiskUse {
 };
 
 constexpr double picture_bytes = 2.5e5;
-constexpr double hdf5_bytes = 22e3;  // what it needs itself for one replica
+constexpr double hdf5_bytes = 22e3;       // what it needs itself for one replica
+constexpr double most_segment = 32768.0;  // samples in one spectrum
 
 /// Position, velocity and momentum of `duration`'s frames, and what is kept of them while it runs.
 void add_frames(DiskUse& use, std::int64_t particles, double frame_interval, double duration) {
@@ -220,7 +232,29 @@ DiskUse predict_disk_use(const files::SweepInput& input, double state_bytes, boo
   return use;
 }
 
-DiskUse predict_disk_use(const files::GreenKuboInput& input, double state_bytes, bool /*at_most*/) {
+/// A checkpoint of a replica but for its series, in bytes. Correlators are of a size that has little to do with the
+/// number of particles: it is counted, as of the classes in measure/, not measured.
+double checkpoint_bytes(const cases::GreenKuboPoint& point) {
+  const std::size_t lags = cases::lag_count(point);
+  const auto per_level = static_cast<double>(measure::MultipleTauCorrelator::Settings{}.lags_per_level);
+  const double levels = 1.0 + std::max(0.0, std::ceil(std::log2(static_cast<double>(lags - 1) / (per_level - 1.0))));
+  double correlator = 8.0 * (3.0 * per_level + 1.0) * levels;
+  double correlation = 24.0 * (per_level + 0.5 * per_level * (levels - 1.0));
+  if (point.method == cases::CorrelationMethod::fft) {
+    // Half a transform of complex numbers, and the samples of both quantities that it will take in.
+    correlator = 24.0 * static_cast<double>(std::bit_ceil(std::max<std::size_t>(4 * lags, 256)));
+    correlation = 24.0 * static_cast<double>(lags);
+  }
+  const double segment = std::min(static_cast<double>(cases::block_samples(point)), most_segment);
+  const double correlations =
+      static_cast<double>(cases::stress_correlations + (point.thermal_conductivity ? 2 : 0) + point.pairs.size());
+  double particle = 52.0;  // number, position, momentum, force
+  if (point.diffusion) particle += 32.0 + 16.0 * (2.0 * per_level + 1.0) * levels;
+  return static_cast<double>(point.particles) * particle + (correlations + 1.0) * correlator + 2.0 * 12.0 * segment +
+         static_cast<double>(cases::block_count(point)) * (correlations * correlation + 4.0 * segment);
+}
+
+DiskUse predict_disk_use(const files::GreenKuboInput& input, double /*state_bytes*/, bool /*at_most*/) {
   DiskUse use{2.0 * picture_bytes, 0.0};
   for (const auto& point : input.points) {
     const auto lags = static_cast<double>(cases::lag_count(point));
@@ -228,12 +262,8 @@ DiskUse predict_disk_use(const files::GreenKuboInput& input, double state_bytes,
     const double intervals = point.duration / (static_cast<double>(cases::interval_steps(point)) * point.step);
     constexpr double interval_bytes = sizeof(cases::EquilibriumSample);
     const double series = point.series ? samples * sizeof(cases::StressSample) : 0.0;
-    const double block = lags * 24.0 * static_cast<double>(cases::stress_correlations + point.pairs.size()) +
-                         4.0 * static_cast<double>(cases::block_samples(point));
     use.results += point.replicas * (intervals * (interval_bytes + 16.0) + series + hdf5_bytes) + lags * 300.0;
-    use.checkpoints += 2.0 * point.replicas *
-                       (static_cast<double>(point.particles) * state_bytes + intervals * interval_bytes + series +
-                        static_cast<double>(cases::block_count(point)) * block);
+    use.checkpoints += 2.0 * point.replicas * (checkpoint_bytes(point) + intervals * interval_bytes + series);
     add_frames(use, point.particles, point.frame_interval, point.duration);
   }
   return use;
@@ -312,20 +342,11 @@ int predict(const Input& input, const std::vector<std::string>& idle_keys) {
   return 0;
 }
 
-/// A file with a [correlation] section is one of green-kubo.
-InputKind kind_of(const std::filesystem::path& file) {
-  std::ifstream lines(file);
-  for (std::string line; std::getline(lines, line);)
-    if (const auto first = line.find_first_not_of(" \t"); first != std::string::npos)
-      if (line.compare(first, 13, "[correlation]") == 0) return InputKind::green_kubo;
-  return InputKind::sweep;
-}
-
 }  // namespace
 
 int check(const InputRequest& request, std::optional<InputKind> kind) {
-  if (kind.value_or(kind_of(request.input)) == InputKind::green_kubo)
-    return predict(files::read_green_kubo(request.input, request.overrides), {});
+  if (!kind) kind = files::has_section(request.input, "correlation") ? InputKind::green_kubo : InputKind::sweep;
+  if (*kind == InputKind::green_kubo) return predict(files::read_green_kubo(request.input, request.overrides), {});
   const files::SweepInput input = files::read_sweep(request.input, request.overrides);
   return predict(input, keys_without_effect(input.points));
 }

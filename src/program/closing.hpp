@@ -7,12 +7,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "lucy/cases/couette_table.hpp"
 
 namespace lucy::program {
 
@@ -37,5 +40,12 @@ void print_files(const std::filesystem::path& directory, std::vector<std::string
 
 /// The exit code of a run of so many points: 0, or 1 after a word on standard error about those that failed.
 int tell_failures(std::size_t failed, std::size_t points);
+
+template <class Row>
+int tell_failures(const std::vector<Row>& rows) {
+  const auto failed =
+      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.status == cases::RowStatus::failed; });
+  return tell_failures(static_cast<std::size_t>(failed), rows.size());
+}
 
 }  // namespace lucy::program

@@ -112,10 +112,11 @@ class Experiment {
   virtual void write_companions(const std::filesystem::path& directory) = 0;
   virtual void write_results(const std::filesystem::path& directory) = 0;
 
-  /// Prints what was just finished, or what is read back from a finished directory (throws RunFailed when that cannot
-  /// be read), ending with `closing`; draws pictures if `draw`. Returns the exit code.
-  virtual int print(const std::filesystem::path& directory, const std::string& closing, bool draw) = 0;
+  /// Takes in what a finished directory holds, as if it had just been run. Throws BadInput when it cannot be read.
   virtual void read_back(const std::filesystem::path& directory) = 0;
+  /// Prints what was just finished or read back, ending with `closing`; draws pictures if `draw`. Returns the exit
+  /// code.
+  virtual int print(const std::filesystem::path& directory, const std::string& closing, bool draw) = 0;
 };
 
 }  // namespace lucy::program

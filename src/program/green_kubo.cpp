@@ -49,10 +49,9 @@ Drawing drawing_of(const fs::path& directory) {
 
 Notes notes_of(const std::vector<cases::GreenKuboRow>& rows) {
   Notes notes;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].status == cases::RowStatus::failed) notes.failures[i] = rows[i].failure;
+  notes.failures = failures_of(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i)
     if (!rows[i].warnings.empty()) notes.warnings[i] = rows[i].warnings;
-  }
   return notes;
 }
 
@@ -64,9 +63,7 @@ int print_rows(const fs::path& directory, const std::vector<cases::GreenKuboRow>
   std::error_code error;
   if (draw && !fs::exists(directory / "correlation.png", error)) program::draw({drawing_of(directory)});
   print_files(directory, result_names(rows.size()));
-  const auto failed = std::count_if(
-      rows.begin(), rows.end(), [](const cases::GreenKuboRow& row) { return row.status == cases::RowStatus::failed; });
-  return tell_failures(static_cast<std::size_t>(failed), rows.size());
+  return tell_failures(rows);
 }
 
 class GreenKubo final : public Experiment {
@@ -118,17 +115,10 @@ class GreenKubo final : public Experiment {
   void read_back(const fs::path& directory) override {
     const fs::path table = directory / "viscosity.csv";
     rows_ = files::read_viscosity_csv(table);
-    const bool same =
-        std::equal(rows_.begin(), rows_.end(), input_.points.begin(), input_.points.end(),
-                   [](const cases::GreenKuboRow& row, const cases::GreenKuboPoint& point) {
-                     return row.particles == point.particles && row.energy_per_particle == point.energy_per_particle;
-                   });
-    if (!same)
-      throw BadInput(
-          fmt::format("{} does not hold the rows of {}", table.string(), (directory / "input.toml").string()));
-    const Notes notes = read_notes(directory / "notes.txt");
-    for (const auto& [row, reason] : notes.failures)
-      if (row < rows_.size() && rows_[row].status == cases::RowStatus::failed) rows_[row].failure = reason;
+    const auto is_of = [](const cases::GreenKuboRow& row, const cases::GreenKuboPoint& point) {
+      return row.particles == point.particles && row.energy_per_particle == point.energy_per_particle;
+    };
+    const Notes notes = notes_beside(table, rows_, input_.points, is_of);
     for (const auto& [row, sentences] : notes.warnings)
       if (row < rows_.size()) rows_[row].warnings = sentences;
   }

@@ -75,8 +75,13 @@ void GreenKuboStatePoint::note(int number, const Replica& replica) {
 }
 
 statistics::Estimate GreenKuboStatePoint::estimate() const {
-  const std::scoped_lock lock(notes_lock_);
-  return cases::current_viscosity(settings_, notes_);
+  std::vector<cases::GreenKuboRecord> records;
+  {
+    const std::scoped_lock lock(notes_lock_);
+    for (const auto& record : notes_)
+      if (!record.blocks.empty()) records.push_back(record);
+  }
+  return cases::current_viscosity(settings_, records);
 }
 
 void GreenKuboStatePoint::forget_notes() {

@@ -9,11 +9,17 @@
 //     any other line, as it is printed
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "lucy/cases/couette_table.hpp"
+#include "lucy/errors.hpp"
 
 namespace lucy::program {
 
@@ -28,5 +34,28 @@ void write_notes(const std::filesystem::path& path, const Notes& notes);
 
 /// None when there is no such file. Throws BadInput when it cannot be read.
 Notes read_notes(const std::filesystem::path& path);
+
+/// Why rows of a table failed.
+template <class Row>
+std::map<std::size_t, std::string> failures_of(const std::vector<Row>& rows) {
+  std::map<std::size_t, std::string> failures;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].status == cases::RowStatus::failed) failures[i] = rows[i].failure;
+  return failures;
+}
+
+/// The notes beside a table that was read back; rows that failed are told why again. Throws BadInput when these are not
+/// the rows of `points`, each of which is_of(row, point).
+template <class Row, class Point, class IsOf>
+Notes notes_beside(const std::filesystem::path& table, std::vector<Row>& rows, const std::vector<Point>& points,
+                   IsOf is_of) {
+  const std::filesystem::path directory = table.parent_path();
+  if (!std::equal(rows.begin(), rows.end(), points.begin(), points.end(), is_of))
+    throw BadInput(fmt::format("{} does not hold the rows of {}", table.string(), (directory / "input.toml").string()));
+  Notes notes = read_notes(directory / "notes.txt");
+  for (const auto& [row, reason] : notes.failures)
+    if (row < rows.size() && rows[row].status == cases::RowStatus::failed) rows[row].failure = reason;
+  return notes;
+}
 
 }  // namespace lucy::program

@@ -68,8 +68,8 @@ std::string status_line(const RunState& state, double elapsed_seconds, int width
   std::string label = state.label;
   std::string estimate;
   // One without an error bar is no estimate yet.
-  if (std::isfinite(state.viscosity.value) && std::isfinite(state.viscosity.error) && state.viscosity.error > 0.0) {
-    estimate = fmt::format("viscosity {}", files::format_with_error(state.viscosity.value, state.viscosity.error));
+  if (std::isfinite(state.estimate.value) && std::isfinite(state.estimate.error) && state.estimate.error > 0.0) {
+    estimate = fmt::format("viscosity {}", files::format_with_error(state.estimate.value, state.estimate.error));
     label += ": ";
   }
   const auto whole = [](double seconds) {  // tenths of seconds would only flicker

@@ -394,12 +394,12 @@ RunState Scheduler::state() {
     for (const auto& runner : entry->runners) left += entry->cost_left(*runner);
   state.fraction = done + left > 0.0 ? done / (done + left) : 0.0;
   state.seconds_left = self_->seconds_left();
-  state.viscosity = {not_a_number, not_a_number, not_a_number, 0};
+  state.estimate = {not_a_number, not_a_number, not_a_number, 0};
   if (const auto current = self_->current_point()) {
     state.label = self_->points[*current]->point->label();
     if (self_->settings.watched) {
       self_->renew_estimate(*current);
-      state.viscosity = self_->estimate;
+      state.estimate = self_->estimate;
     }
   }
   return state;

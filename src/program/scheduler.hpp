@@ -30,10 +30,10 @@ namespace lucy::program {
 struct RunState {
   std::size_t points = 0;
   std::size_t points_done = 0;
-  double fraction = 0.0;           ///< of the work known so far
-  double seconds_left = 0.0;       ///< nan until a speed has been measured
-  std::string label;               ///< the point that is being worked on; empty between points
-  statistics::Estimate viscosity;  ///< of that point, from what has been recorded so far
+  double fraction = 0.0;          ///< of the work known so far
+  double seconds_left = 0.0;      ///< nan until a speed has been measured
+  std::string label;              ///< the point that is being worked on; empty between points
+  statistics::Estimate estimate;  ///< of that point's viscosity, from what has been recorded so far
 };
 
 class Scheduler {

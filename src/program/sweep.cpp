@@ -130,8 +130,7 @@ class Sweep final : public Experiment {
     Notes notes;
     for (const auto& note : notes_on(input_.points, results)) notes_ += note + '\n';
     notes.others = notes_;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].status == cases::RowStatus::failed) notes.failures[i] = rows_[i].failure;
+    notes.failures = failures_of(rows_);
     files::write_replicas_csv(directory / "replicas.csv", replicas);
     write_notes(directory / "notes.txt", notes);
   }
@@ -141,18 +140,11 @@ class Sweep final : public Experiment {
   void read_back(const fs::path& directory) override {
     const fs::path table = directory / "table.csv";
     rows_ = files::read_table_csv(table);
-    const bool same = std::equal(rows_.begin(), rows_.end(), input_.points.begin(), input_.points.end(),
-                                 [](const cases::TableRow& row, const cases::CouettePoint& point) {
-                                   return row.particles == point.particles && row.strain_rate == point.strain_rate &&
-                                          row.energy_per_particle == point.energy_per_particle;
-                                 });
-    if (!same)
-      throw BadInput(
-          fmt::format("{} does not hold the rows of {}", table.string(), (directory / "input.toml").string()));
-    const Notes notes = read_notes(directory / "notes.txt");
-    notes_ = notes.others;
-    for (const auto& [row, reason] : notes.failures)
-      if (row < rows_.size() && rows_[row].status == cases::RowStatus::failed) rows_[row].failure = reason;
+    const auto is_of = [](const cases::TableRow& row, const cases::CouettePoint& point) {
+      return row.particles == point.particles && row.strain_rate == point.strain_rate &&
+             row.energy_per_particle == point.energy_per_particle;
+    };
+    notes_ = notes_beside(table, rows_, input_.points, is_of).others;
   }
 
   int print(const fs::path& directory, const std::string& closing, bool draw) override {
@@ -168,9 +160,7 @@ class Sweep final : public Experiment {
       names.push_back(fmt::format("configuration_{:03}.png", i + 1));
     }
     print_files(directory, names);
-    const auto failed = std::count_if(
-        rows_.begin(), rows_.end(), [](const cases::TableRow& row) { return row.status == cases::RowStatus::failed; });
-    return tell_failures(static_cast<std::size_t>(failed), rows_.size());
+    return tell_failures(rows_);
   }
 
  private:

@@ -126,8 +126,15 @@ int viscosity(std::span<const fs::path> sweeps, const fs::path& green_kubo, cons
   std::vector<cases::TableRow> sheared;
   std::vector<Fluid> fluids;
   std::string sweep_tables;
+  std::vector<fs::path> tables;
   for (const fs::path& sweep : sweeps) {
     const fs::path table = results_of(sweep, "table.csv", "sweep");
+    std::error_code error;  // tables that are not there are told of below
+    for (const fs::path& other : tables)
+      if (fs::equivalent(table, other, error))
+        throw BadInput(fmt::format("{} is given twice, as {} and as {}: its rows would count twice", table.string(),
+                                   table.string(), other.string()));
+    tables.push_back(table);
     std::ranges::move(files::read_table_csv(table), std::back_inserter(sheared));
     std::ranges::move(fluids_beside(table, [](const fs::path& path) { return files::read_sweep(path); }),
                       std::back_inserter(fluids));
@@ -135,6 +142,11 @@ int viscosity(std::span<const fs::path> sweeps, const fs::path& green_kubo, cons
   }
   const fs::path green_kubo_table = results_of(green_kubo, "viscosity.csv", "Green-Kubo run");
   const auto at_rest = files::read_viscosity_csv(green_kubo_table);
+  if (std::ranges::any_of(at_rest, [](const cases::GreenKuboRow& row) { return row.particles == 0; }))
+    throw BadInput(
+        fmt::format("{} is of a stress series that was sampled elsewhere: it has no number of particles and no "
+                    "energy to be matched by",
+                    green_kubo_table.string()));
   const auto published = files::read_published_green_kubo(data_directory() / "reference" / "posch1995_green_kubo.csv");
   std::ranges::move(fluids_beside(green_kubo_table, [](const fs::path& path) { return files::read_green_kubo(path); }),
                     std::back_inserter(fluids));

@@ -202,20 +202,18 @@ double deviance_p_value(const Ordinates& ordinates, const Shape& shape, double s
   return gsl_cdf_chisq_Q(deviance / factor, left * mean / factor);
 }
 
-/// The best of a few starts about a relaxation time, in omega_k <= highest.
+/// The best minimum from these starts of log b/a about a relaxation time, in omega_k <= highest.
 LorentzianFit fit_below(std::span<const double> power, std::size_t segment, double spectra, double interval,
-                        double highest, double time) {
+                        double highest, double time, std::span<const double> log_ratios) {
   Ordinates ordinates(power, segment, interval, highest);
   const int count = static_cast<int>(ordinates.power.size());
   if (count < fewest_ordinates) return no_fit;
   if (std::any_of(ordinates.power.begin(), ordinates.power.end(),
                   [](double each) { return !(each > 0.0) || !std::isfinite(each); }))
     return no_fit;
-  // Ratios of b to a as heights of the spectrum at zero: of a Lorentzian that is 2 tau/dt per unit of a.
-  const double height = std::log(2.0 * time / interval);
   Minimum best;
-  for (const double log_height_ratio : {-4.0, -1.0, 1.0}) {
-    const Minimum found = minimise(ordinates, std::log(time), height + log_height_ratio);
+  for (const double log_ratio : log_ratios) {
+    const Minimum found = minimise(ordinates, std::log(time), log_ratio);
     if (found.value < best.value) best = found;
   }
   if (!std::isfinite(best.value)) return no_fit;
@@ -261,7 +259,10 @@ LorentzianFit fit_lorentzian(std::span<const double> power, std::size_t segment,
   double time = half_width_time(power, segment, interval);
   for (int round = 0; round < most_rounds && time > 0.0; ++round) {
     const double highest = std::max(spectrum_reach / time, least_highest);
-    const LorentzianFit result = fit_below(power, segment, spectra, interval, highest, time);
+    // Heights of the constant over that of the Lorentzian at zero, which is 2 tau/dt per unit of a.
+    const double height = std::log(2.0 * time / interval);
+    const std::array<double, 3> starts = {height - 4.0, height - 1.0, height + 1.0};
+    const LorentzianFit result = fit_below(power, segment, spectra, interval, highest, time, starts);
     if (std::abs(result.relaxation_time - time) <= agreement * time || round == most_rounds - 1) return result;
     time = round < 5 ? result.relaxation_time : std::sqrt(time * result.relaxation_time);
   }
@@ -270,7 +271,10 @@ LorentzianFit fit_lorentzian(std::span<const double> power, std::size_t segment,
 
 LorentzianFit refit_lorentzian(std::span<const double> power, std::size_t segment, double spectra, double interval,
                                const LorentzianFit& like) {
-  return fit_below(power, segment, spectra, interval, like.highest_frequency, like.relaxation_time);
+  const double lorentzian_share = (like.integral - like.background) / like.relaxation_time;
+  const double ratio = like.background / (0.5 * interval) / lorentzian_share;
+  const double start = std::log(std::clamp(ratio, std::exp(-widest_logarithm), std::exp(widest_logarithm)));
+  return fit_below(power, segment, spectra, interval, like.highest_frequency, like.relaxation_time, {&start, 1});
 }
 
 }  // namespace lucy::statistics

@@ -12,6 +12,7 @@
 
 #include "lucy/errors.hpp"
 #include "lucy/measure/correlator.hpp"
+#include "lucy/statistics/running_integral.hpp"
 
 namespace lucy::cases {
 namespace {
@@ -111,8 +112,8 @@ void expect_near_truth(const Estimate& found, double truth, double largest_error
 }
 
 void expect_unknown(const Estimate& found) {
-  EXPECT_TRUE(std::isnan(found.value));
-  EXPECT_TRUE(std::isnan(found.error));
+  EXPECT_TRUE(std::isnan(found.value)) << found.value;
+  EXPECT_TRUE(std::isnan(found.error)) << found.error;
 }
 
 bool warned_of(const GreenKuboRow& row, const std::string& words) {
@@ -231,10 +232,13 @@ TEST(GreenKuboTable, NamesTheKeyThatCutsTheIntegralShort) {
 
   point.length = 30.0;
   const GreenKuboRow short_of_decay = summarize(point, records(point, 8, 4)).row;
-  expect_unknown(estimate(short_of_decay, "viscosity"));
   expect_unknown(estimate(short_of_decay, "decay_time"));
-  EXPECT_EQ(short_of_decay.status, RowStatus::too_short);
+  EXPECT_EQ(short_of_decay.cutoff, 30.0);
+  EXPECT_GT(estimate(short_of_decay, "viscosity").error, 0.0);
+  EXPECT_EQ(short_of_decay.status, RowStatus::too_short) << "a cut-off that no rule chose";
   EXPECT_TRUE(warned_of(short_of_decay, "No decay time of the stress correlation"));
+  point.cutoff = 25.0;
+  EXPECT_EQ(summarize(point, records(point, 8, 4)).row.status, RowStatus::ok) << "a cut-off that was asked for";
   EXPECT_GT(estimate(short_of_decay, "shear_modulus").error, 0.0);
   EXPECT_GT(estimate(short_of_decay, "viscosity_spectrum").error, 0.0);
 }
@@ -332,8 +336,10 @@ TEST(GreenKuboTable, AgreesOnStretchedLags) {
   const Estimate a = estimate(equal.row, "viscosity"), b = estimate(levels.row, "viscosity");
   EXPECT_NEAR(a.value, b.value, 0.3 * a.error);
   EXPECT_NEAR(a.error / b.error, 1.0, 0.1);
-  EXPECT_NEAR(levels.curves.noise_envelope.back() / equal.curves.noise_envelope.back(), 1.0, 0.1);
-  EXPECT_TRUE(std::isnan(levels.curves.noise_integral.value.empty() ? std::nan("") : 0.0));
+  EXPECT_NEAR(
+      statistics::value_at(levels.curves.time, levels.curves.noise_envelope, 100.0) / equal.curves.noise_envelope[100],
+      1.0, 0.1);
+  EXPECT_TRUE(levels.curves.noise_integral.value.empty());
 }
 
 TEST(GreenKuboTable, FindsDiffusionConductivityAndWhateverElseWasAskedFor) {
@@ -481,17 +487,19 @@ class GreenKuboCalibrationLong : public testing::TestWithParam<Process> {};
 TEST_P(GreenKuboCalibrationLong, OneErrorCoversTheTruthInTwoOutOfThreeRealisations) {
   const auto [slow, fast] = GetParam();
   constexpr int realisations = 400;
+  constexpr std::size_t samples = 10000;
+  constexpr double every = 2.0;
   const double truth = slow * 25.0 + fast * 5.0;
   std::mt19937_64 generator(1995);
   int integral = 0, spectrum = 0;
   for (int i = 0; i < realisations; ++i) {
     SampledSeries series;
     const auto component = [&] {
-      return relaxing(20000, interval, slow, 25.0, generator) + relaxing(20000, interval, fast, 5.0, generator);
+      return relaxing(samples, every, slow, 25.0, generator) + relaxing(samples, every, fast, 5.0, generator);
     };
     series.pxy = component();
     series.stress_difference = component();
-    series.sample_interval = interval;
+    series.sample_interval = every;
     series.volume = 1.0;
     series.kinetic_temperature = 1.0;
     const GreenKuboRow row = summarize_series(series).row;

@@ -260,7 +260,7 @@ TEST(SideBySide, LaysEveryRouteBesideGreenKubo) {
   EXPECT_NEAR(state.routes[3].error, of_print, 1e-12);
   EXPECT_NEAR(state.routes[3].z, 0.5 / std::hypot(of_print, 0.4), 1e-12);
   EXPECT_THAT(state.routes[3].note, HasSubstr("error not in print"));
-  EXPECT_THAT(state.routes[3].note, HasSubstr("pressure differs by +0.5, the kinetic part by -0.5"));
+  EXPECT_THAT(state.routes[3].note, HasSubstr("pressure differs by +0.5 standard errors, the kinetic part by -0.5"));
   EXPECT_NEAR(state.routes[4].value, 13.89, 0.005);
 }
 

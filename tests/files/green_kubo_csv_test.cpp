@@ -38,7 +38,7 @@ TEST(ViscosityCsv, HasTheColumnsThatWerePromisedInTheirOrder) {
       "pressure_kinetic,pressure_kinetic_error,pressure_potential,pressure_potential_error,potential_energy,"
       "potential_energy_error,shear_modulus,shear_modulus_error,self_diffusion,self_diffusion_error,"
       "thermal_conductivity,thermal_conductivity_error,spectrum_z,cutoff,decay_begin,decay_end,spectrum_frequency,"
-      "spectrum_p_value,blocks,step,sample_interval,duration,replicas,energy_drift,largest_energy_error,status\n");
+      "spectrum_p_value,self_diffusion_cutoff,thermal_conductivity_cutoff,blocks,step,sample_interval,duration,replicas,energy_drift,largest_energy_error,status\n");
 }
 
 TEST(ViscosityCsv, GivesBackTheSameBits) {
@@ -115,13 +115,13 @@ TEST(CorrelationCsv, HasOneLinePerStateAndTime) {
   results[2].curves.kinetic = {{7.0, 8.0}, {9.0, 10.0}};
   write_correlation_csv(folder / "correlation.csv", results);
   EXPECT_EQ(contents(folder / "correlation.csv"),
-            "energy_per_particle,particles,time,C_xy,C_xy_error,C_difference,C_difference_error,C_mean,C_mean_error,"
+            "point,energy_per_particle,particles,time,C_xy,C_xy_error,C_difference,C_difference_error,C_mean,C_mean_error,"
             "integral,integral_error,noise_envelope,noise_integral,noise_integral_error,C_kinetic,C_kinetic_error,"
             "C_cross,C_cross_error,C_potential,C_potential_error\n"
-            "0.5,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,nan,nan,nan,nan,nan,nan\n"
-            "0.5,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,nan,nan,nan,nan,nan,nan\n"
-            "1,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,7,9,nan,nan,nan,nan\n"
-            "1,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,8,10,nan,nan,nan,nan\n");
+            "1,0.5,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,nan,nan,nan,nan,nan,nan\n"
+            "1,0.5,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,nan,nan,nan,nan,nan,nan\n"
+            "3,1,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,7,9,nan,nan,nan,nan\n"
+            "3,1,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,8,10,nan,nan,nan,nan\n");
 }
 
 TEST(PairsCsv, IsThereOnlyWhenSomethingElseWasCorrelated) {
@@ -133,10 +133,10 @@ TEST(PairsCsv, IsThereOnlyWhenSomethingElseWasCorrelated) {
                        {"pressure pressure", {0.0}, {{5.0}, {6.0}}, {{0.0}, {0.0}}}};
   write_pairs_csv(folder / "pairs.csv", results);
   EXPECT_EQ(contents(folder / "pairs.csv"),
-            "energy_per_particle,particles,pair,time,correlation,correlation_error,integral,integral_error\n"
-            "0.5,1024,velocity velocity,0,0.25,1,0,4\n"
-            "0.5,1024,velocity velocity,0.5,0.125,2,3,nan\n"
-            "0.5,1024,pressure pressure,0,5,6,0,0\n");
+            "point,energy_per_particle,particles,pair,time,correlation,correlation_error,integral,integral_error\n"
+            "2,0.5,1024,velocity velocity,0,0.25,1,0,4\n"
+            "2,0.5,1024,velocity velocity,0.5,0.125,2,3,nan\n"
+            "2,0.5,1024,pressure pressure,0,5,6,0,0\n");
 }
 
 }  // namespace

@@ -155,6 +155,17 @@ std::vector<double> read_numbers(hid_t file, const char* path) {
   return values;
 }
 
+std::string read_text_attribute(hid_t file, const char* path, const char* name) {
+  const hid_t attribute = H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT);
+  if (attribute < 0) return {};
+  const hid_t type = H5Aget_type(attribute);
+  std::string text(H5Tget_size(type), '\0');
+  H5Aread(attribute, type, text.data());
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return text;
+}
+
 haddr_t address_of(hid_t file, const char* path) {
   H5O_info_t information{};
   return H5Oget_info_by_name(file, path, &information, H5P_DEFAULT) < 0 ? HADDR_UNDEF : information.addr;
@@ -191,6 +202,9 @@ TEST_F(H5mdTest, IsReadBackByTheLibrary) {
   EXPECT_EQ(steps[0], 41 * 10);
   EXPECT_EQ(steps[79], 120 * 10);
   EXPECT_DOUBLE_EQ(times[79], 60.0);
+  EXPECT_EQ(read_text_attribute(file, "/observables/replica_01", "description"),
+            "each value is the average over the steps that end at its step and time");
+  EXPECT_EQ(H5Aexists_by_name(file, "/observables/replica_01/pxy_kinetic", "averaged_over_steps", H5P_DEFAULT), 1);
   EXPECT_THAT(read_numbers(file, "/observables/replica_02/pyy_potential/value"), SizeIs(70));
   EXPECT_EQ(read_numbers(file, "/particles/replica_01/position/value")[8], frame(1).position[0]);
 
@@ -296,6 +310,17 @@ TEST_F(GreenKuboH5mdTest, HoldsTheSamplesAndTheSeriesWithStepsOfItsOwn) {
   EXPECT_EQ(H5Aexists_by_name(file, "/parameters", "preparation", H5P_DEFAULT), 1);
   EXPECT_EQ(H5Aexists_by_name(file, "/observables/replica_01", "energy_drift", H5P_DEFAULT), 1);
   EXPECT_EQ(H5Lexists(file, "/particles", H5P_DEFAULT), 0);
+  H5Fclose(file);
+}
+
+TEST_F(GreenKuboH5mdTest, SaysThatItsValuesAreNoAverages) {
+  write(series_);
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  for (const char* group : {"/observables/replica_01", "/observables/replica_01/stress"})
+    EXPECT_EQ(read_text_attribute(file, group, "description"), "each value is that of its step and time");
+  for (const char* element : {"/observables/replica_01/pressure_kinetic", "/observables/replica_01/stress/pxy_kinetic"})
+    EXPECT_EQ(H5Aexists_by_name(file, element, "averaged_over_steps", H5P_DEFAULT), 0) << element;
   H5Fclose(file);
 }
 

@@ -17,6 +17,7 @@
 
 #include "input_folder.hpp"
 #include "lucy/errors.hpp"
+#include "lucy/files/schema.hpp"
 
 namespace lucy::files {
 namespace {
@@ -492,6 +493,18 @@ TEST_F(InputTest, WhatIsNoTextFileIsRefused) {
   EXPECT_EQ(refusal("title = \"caf\xc3\xa9\"\n" + minimal), "accepted");
   EXPECT_EQ(refusal(std::string((4u << 20) + 1, ' ')), "a.toml: is larger than 4 MiB, too large for a TOML input file");
   EXPECT_PRED2(starts_with, refusal(""), "a.toml: system.particles is missing");
+}
+
+TEST_F(InputTest, SectionsAreKnownHoweverTheyAreWritten) {
+  EXPECT_TRUE(has_section(write("[correlation]\n"), "correlation"));
+  EXPECT_TRUE(has_section(write("[ correlation ]  # times\nlength = 1\n"), "correlation"));
+  EXPECT_TRUE(has_section(write("correlation.length = 1\n"), "correlation"));
+  EXPECT_TRUE(has_section(write("correlation = {length = 1}\n"), "correlation"));
+  EXPECT_FALSE(has_section(write("title = \"\"\"\n[correlation]\n\"\"\"\n[run]\n"), "correlation"));
+  EXPECT_FALSE(has_section(write("correlation = 1\n"), "correlation"));
+  EXPECT_FALSE(has_section(write("[correlation\n"), "correlation"));
+  EXPECT_FALSE(has_section(write(std::string(3, '\0')), "correlation"));
+  EXPECT_FALSE(has_section(folder_ / "none.toml", "correlation"));
 }
 
 TEST_F(InputTest, WhatCannotBeRunIsRefusedAtTheLineOfItsKey) {

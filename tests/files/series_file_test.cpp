@@ -15,10 +15,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using testing::message_of;
 using testing::put;
 using testing::ScratchFolder;
+using ::testing::SizeIs;
 
 class SeriesFileTest : public ::testing::Test {
  protected:
@@ -39,7 +39,7 @@ class SeriesFileTest : public ::testing::Test {
 
 TEST_F(SeriesFileTest, ReadsBareColumns) {
   const ColumnFile file = read("1 2.5\n  +3\t-4e-3  \n\n5 6");
-  EXPECT_THAT(file.names, IsEmpty());
+  EXPECT_THAT(file.names, SizeIs(0));
   EXPECT_THAT(file.columns, ElementsAre(ElementsAre(1.0, 3.0, 5.0), ElementsAre(2.5, -4e-3, 6.0)));
 }
 
@@ -60,7 +60,7 @@ TEST_F(SeriesFileTest, TakesNamesFromALineOfTheirOwn) {
 }
 
 TEST_F(SeriesFileTest, CommentsOfOtherLengthsAreNoNames) {
-  EXPECT_THAT(read("# made by hand\n1 2\n").names, IsEmpty());
+  EXPECT_THAT(read("# made by hand\n1 2\n").names, SizeIs(0));
   EXPECT_THAT(read("#\n# time x\n# one more remark\n1 2\n").names, ElementsAre("time", "x"));
 }
 

@@ -174,11 +174,21 @@ class Refusals(GreenKuboTest):
         self.expect(process, 0)
         self.assertIn("blocks", process.stdout)
         self.assertIn("wall time", process.stdout)
+        self.write("spaced.toml", SMALL.replace("[correlation]", "[ correlation ]"))
+        self.assertIn("blocks", self.lucy("check", "spaced.toml").stdout)
         self.expect(self.lucy("check", "tiny.toml", "--for", "green-kubo"), 2, "shear")
         process = self.lucy("explain", "--for", "green-kubo", "correlation")
         self.expect(process, 0)
-        self.assertIn("correlation.length", process.stdout.replace("[correlation] ", "correlation."))
+        self.assertIn("[correlation]", process.stdout)
+        self.assertIn("twice the cut-off", process.stdout)
         self.assertFalse((self.folder / "runs").exists())
+
+    def test_check_lasts_no_longer_for_long_intervals(self):
+        begin = time.monotonic()
+        process = self.lucy("check", "small.toml", "--set", "system.particles=40000", "--set", "run.step=0.0001")
+        self.expect(process, 0)
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertNotIn("unknown", process.stdout)
 
 
 class Resume(GreenKuboTest):

@@ -18,7 +18,7 @@ RunState halfway() {
   state.fraction = 0.415;
   state.seconds_left = 92.3;
   state.label = "N = 1024, E/N = 1, rate 0.1";
-  state.viscosity = {2.6612, 0.0314, 50.0, 40};
+  state.estimate = {2.6612, 0.0314, 50.0, 40};
   return state;
 }
 
@@ -30,7 +30,7 @@ TEST(StatusLine, SaysEverythingWhereThereIsRoom) {
 
 TEST(StatusLine, LeavesOutWhatIsNotKnown) {
   auto state = halfway();
-  state.viscosity = {unknown, unknown, unknown, 0};
+  state.estimate = {unknown, unknown, unknown, 0};
   state.seconds_left = unknown;
   EXPECT_EQ(status_line(state, 3.0, 160),
             "[########------------]   41 %  2/5 points  N = 1024, E/N = 1, rate 0.1  3 s");
@@ -42,7 +42,7 @@ TEST(StatusLine, ShowsNoEstimateBeforeThereIsOne) {
   auto state = halfway();
   for (const statistics::Estimate& none : {statistics::Estimate{}, statistics::Estimate{2.66, unknown, unknown, 0},
                                            statistics::Estimate{2.66, 0.0, 0, 0}}) {
-    state.viscosity = none;
+    state.estimate = none;
     EXPECT_EQ(status_line(state, 65.9, 160).find("viscosity"), std::string::npos) << status_line(state, 65.9, 160);
   }
 }

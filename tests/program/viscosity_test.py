@@ -64,7 +64,8 @@ class SideBySide(ProgramTest):
                     "kinetic_temperature": 0.54, "kinetic_temperature_error": 0.001, "pressure": 1.0238,
                     "pressure_error": 0.0001, "pressure_kinetic": 0.5392, "pressure_kinetic_error": 0.0001}
             row |= {"spectrum_z": 0.75, "cutoff": 154, "decay_begin": 5, "decay_end": 80, "spectrum_frequency": 0.05,
-                    "spectrum_p_value": 0.5, "blocks": 64, "step": 0.05, "sample_interval": 0.2, "duration": 20000,
+                    "spectrum_p_value": 0.5, "self_diffusion_cutoff": math.nan,
+                    "thermal_conductivity_cutoff": math.nan, "blocks": 64, "step": 0.05, "sample_interval": 0.2, "duration": 20000,
                     "replicas": 8, "energy_drift": 1e-6, "largest_energy_error": 1e-5, "status": "ok"}
             table.append(row)
         self.write_table(self.folder / name / "viscosity.csv", table)

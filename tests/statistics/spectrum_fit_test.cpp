@@ -114,6 +114,8 @@ TEST(SpectrumFit, FindsNothingWhereThereIsNothing) {
   broken[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(integral_of(broken)));
   EXPECT_TRUE(std::isnan(refit_lorentzian({}, segment, 32.0, interval, {}).integral));
+  const LorentzianFit none = fit_lorentzian(broken, segment, 32.0, interval);
+  EXPECT_TRUE(std::isnan(refit_lorentzian(std::vector<double>(501, 1.0), segment, 32.0, interval, none).integral));
 }
 
 /// One realisation of m averaged spectra.
@@ -142,7 +144,7 @@ TEST(SpectrumFit, SurvivesSpectraOfAnyShape) {
   }
 }
 
-TEST(SpectrumFit, OneErrorCoversTheTruthAsAGaussianWould) {
+TEST(SpectrumFitLong, OneErrorCoversTheTruthAsAGaussianWould) {
   const std::vector<double> expected = expected_power({{0.7, 10.0}, {0.3, 0.0}}, segment, interval, 150);
   std::mt19937_64 generator(12);
   constexpr int realisations = 400;

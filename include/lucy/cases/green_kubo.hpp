@@ -4,8 +4,7 @@
 // The Lucy fluid at equilibrium, watched for its fluctuations (Posch, Hoover and Kum, Phys. Rev. E 52, 1711 (1995),
 // Sec. V): one state, one replica at a time. A replica is prepared, equilibrated and recorded:
 //
-//     preparation     sheared at preparation_rate under the isoenergetic ergostat, a whole number of box lengths, so
-//     that
+//     preparation     sheared at preparation_rate under the isoenergetic ergostat, a whole number of box lengths: so
 //                     nothing is left of the lattice while the energy stays exact
 //     equilibration   at rest, Newton's equations
 //     duration        the same, recorded: stresses every sample_interval, correlated on the fly in blocks
@@ -104,8 +103,8 @@ void validate(const GreenKuboPoint& point);
 std::uint64_t replica_seed(const GreenKuboPoint& point, int replica);
 
 /// The correlations of the stress in a block, of pressures as sampled (no factor V/kT): autocorrelations of P_xy and of
-/// (P_xx - P_yy)/2, whole and of their kinetic and potential parts; and P_xy with (P_xx - P_yy)/2, which isotropy makes
-/// zero: a sample of pure noise.
+/// (P_xx - P_yy)/2, whole and of their kinetic and potential parts; and P_xy with (P_xx - P_yy)/2 in either order,
+/// which isotropy makes zero: a sample of pure noise, as wide as that of the mean of both autocorrelations.
 enum StressCorrelation : std::size_t {
   xy,
   xy_kinetic,
@@ -123,7 +122,7 @@ struct CorrelationBlock {
   std::array<measure::Correlation, stress_correlations> stress;  ///< parts are empty when only totals are known
   measure::Spectrum spectrum;                                    ///< mean of those of P_xy and (P_xx - P_yy)/2
   std::vector<measure::Correlation> others;  ///< <v(0) . v(t)>/2 if asked for, then heat flux x and y (summed over
-                                             ///< both, halved), then `pairs`
+                                             ///< both, halved), then `pairs`: products, with the means of their factors
 };
 
 /// The state at the end of an interval.
@@ -139,8 +138,8 @@ struct GreenKuboRecord {
   double interval = 0.0;                   ///< time between EquilibriumSamples
   std::vector<EquilibriumSample> samples;  ///< production only
   std::vector<CorrelationBlock> blocks;    ///< those that are complete
-  double energy_drift = 0.0;               ///< (E - E_0)/N at the end, E_0 at the start of the recording
-  double largest_energy_error = 0.0;       ///< largest |E - E_0|/N at the end of any interval
+  double energy_drift = 0.0;               ///< change of E/N from the first interval recorded to the last
+  double largest_energy_error = 0.0;       ///< largest |E/N - energy_per_particle| at the end of any interval
   std::int64_t steps = 0;                  ///< all of them
   std::int64_t subdivided_steps = 0;
 };

@@ -6,11 +6,41 @@
 //     eta = (V/kT) int_0^cutoff C(t) dt,     C = 1/2 [<P_xy(0) P_xy(t)> + <D(0) D(t)>],     D = (P_xx - P_yy)/2
 //
 // (Green, J. Chem. Phys. 22, 398 (1954); Kubo, J. Phys. Soc. Jpn. 12, 570 (1957); Posch, Hoover and Kum, Sec. V), P the
-// whole stress. Blocks of the replicas, correlated apart, give every error by the jackknife.
+// whole stress. Blocks of the replicas, correlated apart, give errors by the jackknife (jackknife.hpp).
 //
 // The cut-off is cutoff_in_decay_times times the decay time tau of C (decay.hpp), a rule that looks at C's decay and
-// never at its integral: an exponential tail has exp(-6) = 0.25 % left there. The values at half and twice the cut-off
-// stand beside it. A second estimate comes from the low-frequency end of the stress spectrum (spectrum_fit.hpp).
+// never at its integral: an exponential tail has exp(-6) = 0.25 % left there. The rule is applied again where a block
+// is left out, so that the error knows that the cut-off is uncertain too. The values at half and twice the cut-off
+// stand beside it; half leaves out 5 % of a tail. Without a decay time the integral runs over all lags and the status
+// is short.
+//
+// A second estimate comes from the low-frequency end of the stress spectrum (spectrum_fit.hpp), with the error that the
+// curvature of its likelihood gives: steadier than the jackknife, and there with one block already. Only the difference
+// of both estimates, which rest on the same data, gets its error from the jackknife.
+//
+// Measured coverage of the true int C dt by one and two errors on synthetic stresses, Ornstein-Uhlenbeck processes of
+// relaxation times 25 (a), 25 and 1 with variances 0.3 and 1 (b), 25 and 8 with equal variances (c), two components
+// sampled every 0.2 and correlated to 400; 2000 realisations each (+-0.010), 500 to 800 of the longest. A Gaussian
+// would have 0.683 and 0.954. Then mean error over true scatter, mean deviation in true scatters, and scatter relative
+// to the truth. The spectrum of one exponential is taken too high, by a third of an error, as its constant cannot be
+// less than nothing. Of 200 relaxation times (1 x 5000) one in fifty has no decay time:
+//
+//        replicas   integral to the cut-off              spectrum
+//     a  1 x 5000    0.698 0.888  1.11  -0.02  24.3 %    0.734 0.969  1.04  +0.37  22.8 %
+//     a  1 x 20000   0.662 0.929  1.00  +0.01  12.0 %    0.668 0.968  0.96  +0.35  11.1 %
+//     a  8 x 2500    0.685 0.912  1.05  -0.02  11.7 %    0.699 0.971  0.92  +0.31  11.5 %
+//     a  8 x 5000    0.657 0.926  0.97  +0.02   8.5 %    0.667 0.960  0.91  +0.31   7.9 %
+//     a  8 x 20000   0.688 0.956  1.04  -0.06   4.0 %    0.704 0.966  1.07  +0.27   3.2 %
+//     b  1 x 5000    0.696 0.890  1.13  -0.06  24.3 %    0.708 0.938  0.98  +0.27  24.2 %
+//     b  1 x 20000   0.670 0.932  1.02  +0.03  12.1 %    0.685 0.954  0.95  +0.22  11.9 %
+//     b  8 x 2500    0.693 0.924  1.05  -0.00  12.1 %    0.697 0.954  0.90  +0.19  12.4 %
+//     b  8 x 5000    0.670 0.916  0.97  +0.01   8.6 %    0.661 0.952  0.89  +0.17   8.8 %
+//     b  8 x 20000   0.704 0.940  1.01  -0.03   4.2 %    0.718 0.944  0.98  +0.07   3.8 %
+//     c  1 x 5000    0.693 0.885  1.12  -0.05  23.0 %    0.682 0.931  0.94  +0.22  23.2 %
+//     c  1 x 20000   0.685 0.929  1.02  -0.02  10.9 %    0.654 0.934  0.88  +0.14  11.9 %
+//     c  8 x 2500    0.669 0.910  1.04  -0.05  11.0 %    0.672 0.927  0.85  +0.13  12.3 %
+//     c  8 x 5000    0.657 0.922  0.96  -0.03   7.9 %    0.640 0.937  0.85  +0.07   8.5 %
+//     c  8 x 20000   0.675 0.936  0.98  -0.13   3.9 %    0.646 0.916  0.91  -0.08   3.9 %
 //
 // Self-diffusion D = int <v_x(0) v_x(t)> dt and thermal conductivity lambda = V/(kT^2) int <J_x(0) J_x(t)> dt (averaged
 // over x and y), each up to its own cut-off by the same rule. In two dimensions all three integrals grow without bound,
@@ -55,9 +85,11 @@ struct GreenKuboRow {
   double energy_per_particle = 0.0;
   std::int64_t particles = 0;
   std::array<statistics::Estimate, green_kubo_quantities.size()> estimates{};
-  double spectrum_z = 0.0;   ///< (viscosity - viscosity_spectrum) in standard errors of that difference, by the
-                             ///< jackknife: both come from the same data
-  double cutoff = 0.0;       ///< time
+  double spectrum_z = 0.0;  ///< (viscosity - viscosity_spectrum) in standard errors of that difference, by the
+                            ///< jackknife: both come from the same data
+  double cutoff = 0.0;      ///< time
+  double self_diffusion_cutoff = 0.0;
+  double thermal_conductivity_cutoff = 0.0;
   double decay_begin = 0.0;  ///< window of the decay fit
   double decay_end = 0.0;
   double spectrum_frequency = 0.0;  ///< highest (angular) that was fitted
@@ -74,7 +106,8 @@ struct GreenKuboRow {
   std::string failure;                ///< why, when status is failed
 };
 
-/// Correlation functions in the units of their transport coefficient, with errors.
+/// Correlation functions in the units of their transport coefficient, with errors (at fixed times; that of kT is not in
+/// them).
 struct Curve {
   std::vector<double> value;
   std::vector<double> error;
@@ -85,8 +118,10 @@ struct StressCurves {
   std::vector<double> time;
   Curve xy, difference, mean;          ///< C_xy, C_difference, their mean
   Curve integral;                      ///< running, of the mean
-  std::vector<double> noise_envelope;  ///< one standard deviation of the running integral of pure noise
-  Curve noise_integral;                ///< running integral of <P_xy(0) D(t)>, which isotropy makes zero
+  std::vector<double> noise_envelope;  ///< one standard deviation of the running integral of pure noise: of the mean
+                                       ///< of two independent components
+  Curve noise_integral;                ///< running integral of <P_xy(0) D(t) + D(0) P_xy(t)>/2, a sample of such noise:
+                                       ///< isotropy makes it zero
   Curve kinetic, cross, potential;     ///< the mean apart; empty when parts are not known
 };
 
@@ -94,7 +129,8 @@ struct StressCurves {
 struct OtherCurve {
   std::string name;
   std::vector<double> time;
-  Curve correlation;  ///< velocity: <v_x(0) v_x(t)>; heat flux: V/(kT^2) <J_x(0) J_x(t)>; others: V <a(0) b(t)>
+  Curve correlation;  ///< velocity: <v_x(0) v_x(t)>; heat flux: V/(kT^2) <J_x(0) J_x(t)>; others: V <a(0) b(t)> of the
+                      ///< deviations from the means
   Curve integral;
 };
 
@@ -125,8 +161,9 @@ struct SampledSeries {
   double cutoff = 0.0;  ///< 0: by the rule
 };
 
-/// The same estimators on such a series: what needs more than stresses is nan. Throws BadInput for an empty series,
-/// unequal lengths, or numbers at or below zero where they must be above.
+/// The same estimators on such a series, in blocks of at least 2.5 times the longest lag, 16 at most: what needs more
+/// than stresses is nan. Throws BadInput for an empty series, unequal lengths, or numbers at or below zero where they
+/// must be above.
 GreenKuboResult summarize_series(const SampledSeries& series);
 
 }  // namespace lucy::cases

@@ -24,8 +24,8 @@ void write_viscosity_csv(const std::filesystem::path& path, std::span<const case
 /// and the text of a failure are not in the file. Throws BadInput naming file, line and column.
 std::vector<cases::GreenKuboRow> read_viscosity_csv(const std::filesystem::path& path);
 
-/// The stress correlations (times V/kT) of all states in long form: energy_per_particle, particles and time lead each
-/// line. A state without curves has no lines.
+/// The stress correlations (times V/kT) of all states in long form: point (the line of viscosity.csv, from 1),
+/// energy_per_particle, particles and time lead each line. A state without curves has no lines.
 void write_correlation_csv(const std::filesystem::path& path, std::span<const cases::GreenKuboResult> results);
 
 /// The further correlations of all states in long form, one line per state, pair and time. Without any, no file is

@@ -15,9 +15,9 @@
 //                                        the edge vectors (L_x, 0) and (offset, L_y)
 //                          /lees_edwards offset (x-shift of the image above), direction (0: x), normal (1: y)
 //
-// The value at (step, time) of an observable is the average over the sample interval that ends there, that of
-// /stress of the instant itself. Step and time count from the start of the run, equilibration included; steps are those
-// of the stated size, however subdivided.
+// The value at (step, time) of an observable of a Couette point is the average over the sample interval that ends
+// there; those of a Green-Kubo state, /stress included, are of the instant itself. Step and time count from the start
+// of the run, equilibration included; steps are those of the stated size, however subdivided.
 #pragma once
 
 #include <cstdint>

@@ -134,6 +134,9 @@ struct ResolvedRow {
 /// Throws BadInput naming line or override, what was found and what is accepted.
 Document read_document(const std::filesystem::path& file, std::span<const std::string> overrides, const Schema& schema);
 
+/// Whether a TOML file has the section [name]. False too for what is no TOML file: read_document will tell why.
+bool has_section(const std::filesystem::path& file, std::string_view name);
+
 /// The rows of a document: its tables of rows, each over the shared values, or else the product of its lists.
 /// Throws BadInput when a required key is missing or the lengths of lists disagree.
 std::vector<ResolvedRow> expand_rows(const Document& document, const Schema& schema);

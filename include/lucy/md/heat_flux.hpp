@@ -40,10 +40,10 @@ struct PairHeatFlux {
       along = fma(pair.displacement[d], mean_velocity[d], along);
     }
     const pairs::Lanes power = slope * along;
-    for (int d = 0; d < D; ++d) {
+    pairs::unrolled<D>([&](auto d) {
       sums[d] = fma(phi, mean_velocity[d], sums[d]);
       sums[D + d] = fma(pair.displacement[d], power, sums[D + d]);
-    }
+    });
   }
 };
 

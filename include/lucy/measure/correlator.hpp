@@ -41,6 +41,8 @@ struct Correlation {
   std::vector<double> lag;          ///< in sampling intervals
   std::vector<double> value;        ///< mean of the products
   std::vector<std::int64_t> pairs;  ///< products that were averaged
+  std::vector<double> mean_a;       ///< of the a_i and b_{i+k} that took part, lag by lag; empty for vectors
+  std::vector<double> mean_b;
 };
 
 class FftCorrelator {

@@ -31,6 +31,7 @@ namespace lucy::motion {
 
 struct Watch {
   double energy_tolerance = 1e-5;  ///< |dE|/N of one step above which it is done again in halves
+  double energy_band = 0.01;       ///< of velocity Verlet: |E - E_0|/N beyond which the run has failed
   bool rescale = true;             ///< with RK4; isoenergetic: E back to its start, isokinetic: K; others: no effect
   int most_halvings = 12;
 };
@@ -55,7 +56,8 @@ class Trajectory {
 
   /// Moves on by `dt`. Throws RunFailed, naming time and cause, when even the smallest substep fails.
   /// `wanted`: what is to be known of the new state. Velocity Verlet goes on without energy and stress: where they are
-  /// not wanted they stay unknown (nan), the energy of that step unwatched, and it takes a quarter less time.
+  /// not wanted they stay unknown (nan), the energy unwatched in that step and the next, and it takes a quarter less
+  /// time.
   void advance(double dt, md::Wanted wanted = md::Wanted::everything);
 
   /// Sorts the particles and makes the neighbour list anew, for steps of `dt`. The list is no part of what save()

@@ -1,14 +1,14 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The exponential tail of a correlation function, C(t) = A exp(-t/tau), fitted by least squares (GSL) over a window that
-// is stated in units of the result,
+// The exponential tail of a correlation function, C(t) = A exp(-t/tau), fitted by least squares (GSL) over a window
+// that is stated in units of the result,
 //
 //     window_begin tau <= t <= window_end tau,
 //
 // found by repeating the fit until window and tau agree. The window starts after the fast part of C and ends while C
-// still stands above its noise. What is made least is the integral of (C - A exp(-t/tau))^2 over the window, so that the
-// spacing of the lags does not matter; errors of C hardly depend on t there, and are not asked for. Points of C at
+// still stands above its noise. What is made least is the integral of (C - A exp(-t/tau))^2 over the window, so that
+// the spacing of the lags does not matter; errors of C hardly depend on t there, and are not asked for. Points of C at
 // different lags move together: the fit's own covariance is of no use, and errors of A and tau come from repeating it
 // on jackknife samples.
 #pragma once
@@ -25,7 +25,7 @@ struct ExponentialDecay {
   double time = 0.0;       ///< tau, in the unit of `times`; nan when no fit was found
   double begin = 0.0;      ///< window
   double end = 0.0;
-  int points = 0;          ///< in the window
+  int points = 0;  ///< in the window
 };
 
 /// `times` increasing from 0, `values` C there. nan results when C(0) is not positive, when C does not decay within

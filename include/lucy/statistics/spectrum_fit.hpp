@@ -4,7 +4,7 @@
 // The integral of a correlation function from the low-frequency end of the power spectrum: S(0) = 2 int_0^inf C dt.
 // Model: a Lorentzian on a constant,
 //
-//     S(omega) = b + a (Lorentzian of relaxation time tau),
+//     S(omega) = b + a (Lorentzian of relaxation time tau),     a, b >= 0,
 //
 // an exponential tail of C above faster parts, which are flat at low frequencies. Of a finite series of S samples at
 // interval dt the mean periodogram of an exponential C is known in closed form, discreteness and leakage included: with
@@ -12,12 +12,20 @@
 //
 //     E I_k = Re[(1 + z)/(1 - z)] - (2/S) Re[z (1 - phi^S)/(1 - z)^2]        for C(k) = phi^|k|
 //
-// so no bias comes from short segments. Ordinates averaged over m spectra follow a Gamma distribution of shape m about
-// that mean (exponential for m = 1): the parameters maximise its likelihood (Whittle, Ark. Mat. 2, 423 (1953)),
+// so no bias comes from short segments. Ordinates averaged over m spectra follow a Gamma distribution of shape m_k = m
+// (m/2 at omega = 0, a real number squared) about that mean: the parameters maximise its likelihood (Whittle, Ark. Mat.
+// 2, 423 (1953)),
 //
-//     -log L = m sum_k [ I_k/S_k + log S_k ],        0 < omega_k <= omega_max,
+//     -log L = sum_k m_k [ I_k/S_k + log S_k ],        0 <= omega_k <= omega_max,
 //
-// omega_max a stated multiple of 1/tau, found by repeating the fit until both agree. k = 0 is left out.
+// omega_max = spectrum_reach/tau, found by repeating the fit until both agree, but at least ten ordinates. The mean of
+// the series is known to be zero; if it was taken off (I_0 = 0), omega = 0 is left out. a or b may come out as nothing.
+// A half width below the lowest frequency, omega_1 tau > 1, is called no fit.
+//
+// Coverage of the error that the curvature gives, and the bias, are in cases/green_kubo_table.hpp. The reach is a
+// compromise: a constant has to stand for all that is faster than the tail. With two relaxation times of 25 and 8 in
+// equal parts, 16 blocks, one error covers the truth in 0.65 of the cases with reach 2, 0.59 with 2.5, 0.52 with 3;
+// with one relaxation time the scatter is 0.075, 0.066, 0.063 of the value.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +48,8 @@ struct LorentzianFit {
 /// `power`: I_k, k = 0 ... (measure::Spectrum); `spectra`: m; `interval`: dt; `segment`: S.
 LorentzianFit fit_lorentzian(std::span<const double> power, std::size_t segment, double spectra, double interval);
 
-/// The same with omega_max held fixed and started from another fit, for jackknife samples.
+/// The same with omega_max held fixed and started from another fit, for jackknife samples; none when that
+/// was none.
 LorentzianFit refit_lorentzian(std::span<const double> power, std::size_t segment, double spectra, double interval,
                                const LorentzianFit& like);
 
