@@ -24,4 +24,15 @@ std::string build_identity() {
   return text;
 }
 
+files::Provenance provenance_of(const std::vector<std::string>& command_line) {
+  const BuildRecord build = build_record();
+  files::Provenance provenance;
+  provenance.version = build.version;
+  provenance.commit = build.commit;
+  provenance.compiler = build.compiler;
+  provenance.flags = build.flags;
+  provenance.command_line = command_line;
+  return provenance;
+}
+
 }  // namespace lucy::program

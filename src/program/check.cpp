@@ -11,6 +11,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -151,6 +152,7 @@ Planned planned(const cases::GreenKuboPoint& point) {
   measurable.length = static_cast<double>(lags) * sample;
   measurable.cutoff = 0.0;
   measurable.duration = 10.0 * measurable.length;
+  measurable.energy_band = std::numeric_limits<double>::max();  // the lattice, unprepared, may leave that of a fluid
   measurable.particles = std::min(point.particles, most_particles);
   return {std::make_unique<GreenKuboStatePoint>(point, "", files::H5mdAuthorship{}),
           std::make_unique<GreenKuboStatePoint>(measurable, "", files::H5mdAuthorship{})};
@@ -345,7 +347,13 @@ int predict(const Input& input, const std::vector<std::string>& idle_keys) {
 }  // namespace
 
 int check(const InputRequest& request, std::optional<InputKind> kind) {
-  if (!kind) kind = files::has_section(request.input, "correlation") ? InputKind::green_kubo : InputKind::sweep;
+  if (!kind) {
+    // A sweep needs a strain rate, from its file or from --set.
+    const bool sheared =
+        files::has_section(request.input, "shear") ||
+        std::ranges::any_of(request.overrides, [](const std::string& text) { return text.starts_with("shear."); });
+    kind = files::has_section(request.input, "correlation") || !sheared ? InputKind::green_kubo : InputKind::sweep;
+  }
   if (*kind == InputKind::green_kubo) return predict(files::read_green_kubo(request.input, request.overrides), {});
   const files::SweepInput input = files::read_sweep(request.input, request.overrides);
   return predict(input, keys_without_effect(input.points));

@@ -241,7 +241,7 @@ int run_program(int argument_count, const char* const* argument_values) {
   const auto add_kind = [&](CLI::App* command, const char* text) {
     command->add_option("--for", kind, text)->transform(CLI::CheckedTransformer(kinds))->type_name("COMMAND");
   };
-  add_kind(check_command, "sweep or green-kubo; default: green-kubo for a file with a [correlation] section");
+  add_kind(check_command, "sweep or green-kubo; default: by the sections of the file");
 
   auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
   std::string filter;
@@ -320,6 +320,7 @@ int run_program(int argument_count, const char* const* argument_values) {
       if (green_kubo_command->count("--length") > 0) series.length = length;
       if (green_kubo_command->count("--cutoff") > 0) series.cutoff = cutoff;
       series.out = request.out;
+      series.command_line = words;
       series.pictures = !no_pictures;
       return green_kubo_series(series);
     }

@@ -41,6 +41,7 @@ struct SeriesRequest {
   std::optional<double> length = {};
   std::optional<double> cutoff = {};
   std::optional<std::filesystem::path> out = {};  ///< default: runs/STEM
+  std::vector<std::string> command_line = {};     ///< as typed, for the record
   bool pictures = true;
 };
 
@@ -56,7 +57,7 @@ int viscosity(std::span<const std::filesystem::path> sweeps, const std::filesyst
 enum class InputKind { sweep, green_kubo };
 
 /// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, a file with a [correlation]
-/// section is one of green-kubo, any other one of a sweep.
+/// section or without a [shear] section is one of green-kubo, any other one of a sweep.
 int check(const InputRequest& request, std::optional<InputKind> kind);
 
 /// Prints the keys of an input file (explain.cpp). `filter`: a section or a key, or empty.

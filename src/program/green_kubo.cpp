@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -22,6 +23,7 @@
 #include "lucy/files/green_kubo_text.hpp"
 #include "lucy/files/schema.hpp"
 #include "lucy/files/series_file.hpp"
+#include "program/build_identity.hpp"
 #include "program/closing.hpp"
 #include "program/commands.hpp"
 #include "program/green_kubo_point.hpp"
@@ -193,6 +195,7 @@ int green_kubo(const InputRequest& request, bool pictures) {
 }
 
 int green_kubo_series(const SeriesRequest& request) {
+  const auto started = std::chrono::system_clock::now();
   const cases::SampledSeries series = sampled_series(request);
   const std::string record = series_record(request, series);
   const fs::path directory = request.out.value_or(fs::path("runs") / request.file.stem());
@@ -206,6 +209,14 @@ int green_kubo_series(const SeriesRequest& request) {
   files::write_file_atomically(directory / "input.toml", record);
   files::write_correlation_csv(directory / "correlation.csv", {&result, 1});
   write_notes(directory / "notes.txt", notes_of({result.row}));
+  files::Provenance provenance = provenance_of(request.command_line);
+  provenance.generator = "none";
+  provenance.threads = 1;
+  provenance.started = started;
+  provenance.finished = std::chrono::system_clock::now();
+  provenance.wall_seconds_of_this_session = std::chrono::duration<double>(provenance.finished - started).count();
+  provenance.wall_seconds_of_points = {provenance.wall_seconds_of_this_session};
+  files::write_provenance(directory / "provenance.json", provenance);
   files::write_viscosity_csv(directory / "viscosity.csv", {&result.row, 1});
   return print_rows(
       directory, {result.row},

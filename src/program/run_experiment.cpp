@@ -107,16 +107,10 @@ struct Session {
 
 void write_record(const fs::path& directory, const InputRequest& request, const Experiment& experiment,
                   const Session& session) {
-  const BuildRecord build = build_record();
-  files::Provenance provenance;
-  provenance.version = build.version;
-  provenance.commit = build.commit;
-  provenance.compiler = build.compiler;
-  provenance.flags = build.flags;
+  files::Provenance provenance = provenance_of(request.command_line);
   provenance.generator = experiment.generator();
   provenance.seed = experiment.seed();
   provenance.threads = session.threads;
-  provenance.command_line = request.command_line;
   provenance.started = session.started;
   provenance.finished = std::chrono::system_clock::now();
   provenance.wall_seconds_of_this_session = session.seconds;

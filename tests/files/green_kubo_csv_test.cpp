@@ -38,7 +38,8 @@ TEST(ViscosityCsv, HasTheColumnsThatWerePromisedInTheirOrder) {
       "pressure_kinetic,pressure_kinetic_error,pressure_potential,pressure_potential_error,potential_energy,"
       "potential_energy_error,shear_modulus,shear_modulus_error,self_diffusion,self_diffusion_error,"
       "thermal_conductivity,thermal_conductivity_error,spectrum_z,cutoff,decay_begin,decay_end,spectrum_frequency,"
-      "spectrum_p_value,self_diffusion_cutoff,thermal_conductivity_cutoff,blocks,step,sample_interval,duration,replicas,energy_drift,largest_energy_error,status\n");
+      "spectrum_p_value,self_diffusion_cutoff,thermal_conductivity_cutoff,blocks,step,sample_interval,duration,"
+      "replicas,energy_drift,largest_energy_error,status\n");
 }
 
 TEST(ViscosityCsv, GivesBackTheSameBits) {
@@ -114,14 +115,15 @@ TEST(CorrelationCsv, HasOneLinePerStateAndTime) {
   results[2].row.energy_per_particle = 1.0;
   results[2].curves.kinetic = {{7.0, 8.0}, {9.0, 10.0}};
   write_correlation_csv(folder / "correlation.csv", results);
-  EXPECT_EQ(contents(folder / "correlation.csv"),
-            "point,energy_per_particle,particles,time,C_xy,C_xy_error,C_difference,C_difference_error,C_mean,C_mean_error,"
-            "integral,integral_error,noise_envelope,noise_integral,noise_integral_error,C_kinetic,C_kinetic_error,"
-            "C_cross,C_cross_error,C_potential,C_potential_error\n"
-            "1,0.5,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,nan,nan,nan,nan,nan,nan\n"
-            "1,0.5,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,nan,nan,nan,nan,nan,nan\n"
-            "3,1,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,7,9,nan,nan,nan,nan\n"
-            "3,1,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,8,10,nan,nan,nan,nan\n");
+  EXPECT_EQ(
+      contents(folder / "correlation.csv"),
+      "point,energy_per_particle,particles,time,C_xy,C_xy_error,C_difference,C_difference_error,C_mean,C_mean_error,"
+      "integral,integral_error,noise_envelope,noise_integral,noise_integral_error,C_kinetic,C_kinetic_error,"
+      "C_cross,C_cross_error,C_potential,C_potential_error\n"
+      "1,0.5,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,nan,nan,nan,nan,nan,nan\n"
+      "1,0.5,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,nan,nan,nan,nan,nan,nan\n"
+      "3,1,1024,0,1,0.25,2,0.75,1.5,0.5,0,0,0,0,0,7,9,nan,nan,nan,nan\n"
+      "3,1,1024,0.2,0.5,0.125,1.5,nan,1,0.25,0.25,0.0625,3,-0.5,4,8,10,nan,nan,nan,nan\n");
 }
 
 TEST(PairsCsv, IsThereOnlyWhenSomethingElseWasCorrelated) {

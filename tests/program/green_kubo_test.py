@@ -240,6 +240,8 @@ class Series(GreenKuboTest):
 
     def test_gives_the_known_integral(self):
         self.green_kubo(*self.options, "--pxy", "v_pxy", "--pxx", "v_pxx", "--pyy", "4", "--out", "x")
+        self.assertIn("--from-series", json.loads((self.folder / "x" / "provenance.json").read_text())["command_line"])
+        self.expect(self.lucy("viscosity", "x", "x"), 2)
         row, = self.table("x")
         for name in ("viscosity", "viscosity_spectrum"):
             self.assertAlmostEqual(float(row[name]), self.truth, delta=4 * float(row[f"{name}_error"]))
