@@ -273,7 +273,7 @@ def draw_legend(figure, rows, parts, height):
                     line([], [], color="0.35", linewidth=0.7, linestyle=":")]
         labels += ["cut-off", "half and twice the cut-off"]
     handles.append((patch(facecolor="0.88", linewidth=0), line([], [], color=NOISE, linewidth=0.8)))
-    labels.append(r"pure noise from $\langle P_{xy}(0)\,D(t)\rangle$, expected spread")
+    labels.append(r"pure noise from $\langle P_{xy} D\rangle$, expected spread")
     columns = math.ceil(len(handles) / 2)
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 1 - 0.04 / height), ncol=columns,
                   frameon=False, columnspacing=1.6, handletextpad=0.6, fontsize=9)

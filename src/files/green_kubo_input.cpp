@@ -93,7 +93,8 @@ std::vector<BoundKey<P>> correlation_keys() {
         .type = Type::texts,
         .meaning = fmt::format(
             "Further correlations <a(0) b(t)> to be written to pairs.csv, each as the two names with a space between, "
-            "such as [\"pressure pressure\"]. Names: {}. Means that symmetry does not make zero are taken off; in pairs.csv such a correlation is "
+            "such as [\"pressure pressure\"]. Names: {}. Means that symmetry does not make zero are taken off; in "
+            "pairs.csv such a correlation is "
             "multiplied by the volume.",
             fmt::join(cases::sampled_quantities, ", "))},
        stored_in(&P::pairs)},

@@ -127,7 +127,9 @@ TEST(GreenKubo, EndsWhenTheEnergyLeavesItsBand) {
     finished(point);
     FAIL() << "the band was kept";
   } catch (const RunFailed& failure) {
-    EXPECT_NE(std::string(failure.what()).find("run.energy_band = 1e-08 about system.energy_per_particle = 1"), std::string::npos) << failure.what();
+    EXPECT_NE(std::string(failure.what()).find("run.energy_band = 1e-08 about system.energy_per_particle = 1"),
+              std::string::npos)
+        << failure.what();
   }
 }
 
