@@ -148,7 +148,8 @@ Planned planned(const cases::GreenKuboPoint& point) {
   measurable.preparation = 0.0;  // what takes long is at rest
   measurable.equilibration = 0.0;
   measurable.sample_interval = sample;
-  measurable.frame_interval = static_cast<double>(most_steps / steps) * sample;  // no interval is longer
+  const std::int64_t samples = most_steps / steps;
+  measurable.frame_interval = static_cast<double>(samples) * sample;  // no interval is longer
   measurable.length = static_cast<double>(lags) * sample;
   measurable.cutoff = 0.0;
   measurable.duration = 10.0 * measurable.length;

@@ -48,7 +48,7 @@ Scheduler::Settings settings_in(const ScratchFolder& folder, int threads) {
 class RunOfPoints {
  public:
   RunOfPoints(const std::vector<cases::CouettePoint>& settings_of_points, const ScratchFolder& folder,
-      const Scheduler::Settings& settings) {
+              const Scheduler::Settings& settings) {
     for (const auto& point : settings_of_points) {
       const auto series = folder / point_file_name(points_.size());
       points_.push_back(std::make_unique<CouetteStatePoint>(point, series, files::H5mdAuthorship{}));

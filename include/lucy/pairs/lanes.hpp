@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <experimental/simd>
 #include <type_traits>
-#include <utility>
 
 namespace lucy::pairs {
 
@@ -31,10 +30,10 @@ Lanes rotate(const Lanes& value) {
 /// in registers, which a loop over their index would keep the compiler from.
 template <int count, class Body>
 [[gnu::always_inline]] inline void unrolled(const Body& body) {
-  [&body]<int... i>(std::integer_sequence<int, i...>) [[gnu::always_inline]] {
-    (body(std::integral_constant<int, i>{}), ...);
+  if constexpr (count > 0) {
+    unrolled<count - 1>(body);
+    body(std::integral_constant<int, count - 1>{});
   }
-  (std::make_integer_sequence<int, count>{});
 }
 
 }  // namespace lucy::pairs
