@@ -206,7 +206,7 @@ class Resume(GreenKuboTest):
         kills = 0
         for _ in range(60):
             process = self.start("green-kubo", "longer.toml", "--out", "x", *extra)
-            time.sleep(moments.uniform(0.1, 0.1 + 0.15 * seconds))
+            time.sleep(moments.uniform(0.06, 0.06 + 0.08 * seconds))
             process.kill()
             process.wait()
             process.stderr.close()
