@@ -59,7 +59,7 @@ void count_particles(benchmark::State& state) {
       benchmark::Counter(done * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-template <lucy::md::Wanted wanted>
+template <lucy::pairs::Wanted wanted>
 void forces(benchmark::State& state) {
   Sorted sorted(state.range(0));
   const lucy::kernel::Lucy<2> kernel(3.0);
@@ -91,8 +91,8 @@ void build_list(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(forces<lucy::md::Wanted::shear_stress>)->Name("forces_and_shear_stress")->Arg(1024)->Arg(16384)->Arg(262144);
-BENCHMARK(forces<lucy::md::Wanted::everything>)->Name("forces_energy_and_virial")->Arg(1024)->Arg(16384)->Arg(262144);
+BENCHMARK(forces<lucy::pairs::Wanted::shear_stress>)->Name("forces_and_shear_stress")->Arg(1024)->Arg(16384)->Arg(262144);
+BENCHMARK(forces<lucy::pairs::Wanted::everything>)->Name("forces_energy_and_virial")->Arg(1024)->Arg(16384)->Arg(262144);
 BENCHMARK(sort)->Arg(1024)->Arg(16384)->Arg(262144);
 BENCHMARK(build_list)->Arg(1024)->Arg(16384)->Arg(262144);
 

@@ -69,7 +69,6 @@ int sample_steps(const CouettePoint& point) {
 void validate(const CouettePoint& point) {
   const auto refuse = [](const std::string& message) { throw BadInput(message); };
   if (point.dimension != 2) refuse(fmt::format("system.dimension = {} must be 2", point.dimension));
-  if (point.reading != "md") refuse(fmt::format("system.reading = \"{}\" must be \"md\"", point.reading));
   if (point.kernel != "lucy") refuse(fmt::format("kernel.name = \"{}\" must be \"lucy\"", point.kernel));
   if (!(point.step > 0.0 && point.step <= 0.2)) {
     refuse(fmt::format("run.step = {} must be above 0 and at most 0.2", point.step));
@@ -175,7 +174,7 @@ struct CouetteRun::Implementation {
     motion::Watch watch;
     watch.energy_tolerance = point.energy_tolerance;
     watch.rescale = point.rescale;
-    return Trajectory(kernel, start, shear, point.integrator, watch, Team(threads));
+    return Trajectory(kernel, start, shear, point.integrator, watch, Team(threads), point.reading);
   }
 
   std::int64_t intervals(double time) const {

@@ -75,7 +75,7 @@ struct GreenKuboRun::Implementation {
         samples_of_block(block_samples(settings)),
         samples_of_last_block(recorded_samples(settings) - (blocks - 1) * samples_of_block),
         heat_flux(needs_heat_flux(settings)),
-        wanted_of_samples(names_in_pairs(settings, "potential_energy") ? md::Wanted::everything : md::Wanted::stress),
+        wanted_of_samples(names_in_pairs(settings, "potential_energy") ? pairs::Wanted::everything : pairs::Wanted::stress),
         correlators(settings) {
     const double preparation = preparation_time(point);
     preparation_steps = cases::preparation_steps(point);
@@ -98,7 +98,7 @@ struct GreenKuboRun::Implementation {
     shear.thermostat = motion::Thermostat::isoenergetic;
     motion::Watch watch;
     watch.energy_tolerance = point.energy_tolerance;
-    trajectory.emplace(kernel, start, shear, motion::Integrator::runge_kutta_4, watch, team);
+    trajectory.emplace(kernel, start, shear, motion::Integrator::runge_kutta_4, watch, team, point.reading);
   }
 
   void make_resting() {
@@ -108,7 +108,7 @@ struct GreenKuboRun::Implementation {
     watch.energy_tolerance = point.energy_tolerance;
     watch.rescale = false;
     watch.energy_band = std::numeric_limits<double>::infinity();  // watch_energy() knows better
-    trajectory.emplace(kernel, start, shear, point.integrator, watch, team);
+    trajectory.emplace(kernel, start, shear, point.integrator, watch, team, point.reading);
   }
 
   /// From shear to rest: the same positions and momenta in a box whose images stand straight.
@@ -196,9 +196,9 @@ struct GreenKuboRun::Implementation {
       const bool sampled_now = recording() && step % steps_per_sample == 0;
       // The energy is looked at once an interval: a whole state is what a checkpoint holds, and what recording begins
       // with.
-      const auto wanted = step == steps_per_interval ? md::Wanted::everything
+      const auto wanted = step == steps_per_interval ? pairs::Wanted::everything
                           : sampled_now              ? wanted_of_samples
-                                                     : md::Wanted::shear_stress;
+                                                     : pairs::Wanted::shear_stress;
       trajectory->advance(point.step, wanted);
       if (sampled_now) take_sample();
     }
@@ -239,7 +239,7 @@ struct GreenKuboRun::Implementation {
   std::int64_t subdivided_before = 0;
   double energy_at_start = 0.0;
   bool heat_flux;
-  md::Wanted wanted_of_samples;
+  pairs::Wanted wanted_of_samples;
   std::optional<Trajectory> trajectory;
   std::vector<double> velocities;
   BlockCorrelators correlators;

@@ -221,7 +221,7 @@ void add_state(hid_t group, const Point& point) {
   add_attribute(group, "energy_per_particle", point.energy_per_particle);
   add_attribute(group, "density", point.density);
   add_attribute(group, "dimension", point.dimension);
-  add_attribute(group, "reading", point.reading);
+  add_attribute(group, "reading", name_of(motion::reading_names, point.reading));
   add_attribute(group, "kernel", point.kernel);
   add_attribute(group, "range", point.range);
 }

@@ -64,9 +64,11 @@ std::vector<BoundKey<Row>> system_keys(Lists particles) {
       {{.section = "system",
         .name = "reading",
         .type = Type::choice,
-        .meaning = "How the pair sum is read: \"md\", the particles are atoms.",
-        .choices = {"md"}},
-       stored_in(&Row::reading)},
+        .meaning = "How the pair sum is read: \"md\", the particles are atoms; \"spam\", they are smooth particles of a "
+                   "fluid with P = rho^2/2 (reduced units), whose densities and pressures are computed. Both give the same "
+                   "bits.",
+        .choices = names_of(motion::reading_names)},
+       stored_by_name_in(&Row::reading, motion::reading_names)},
   };
 }
 

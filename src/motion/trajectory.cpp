@@ -11,6 +11,7 @@
 
 #include "lucy/errors.hpp"
 #include "lucy/motion/velocity_verlet.hpp"
+#include "lucy/spam/isentropic_forces.hpp"
 
 namespace lucy::motion {
 
@@ -38,12 +39,13 @@ std::array<const double*, D> Trajectory<D>::pointers(const space::Columns& colum
 
 template <int D>
 Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear,
-                          Integrator integrator, const Watch& watch, const Team& team)
+                          Integrator integrator, const Watch& watch, const Team& team, Reading reading)
     : kernel_(kernel),
       shear_(shear),
       integrator_(integrator),
       watch_(watch),
       team_(team),
+      reading_(reading),
       particles_(start.position.size()),
       box_(start.lengths, shear.strain_rate),
       list_(static_cast<std::int64_t>(start.position.size()), start.lengths),
@@ -51,7 +53,8 @@ Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, 
       now_{space::Columns(columns, list_.capacity()), {}},
       next_{space::Columns(columns, list_.capacity()), {}},
       sum_(columns, list_.capacity()),
-      force_(D, list_.capacity()) {
+      force_(D, list_.capacity()),
+      fluid_(reading == Reading::spam ? 2 : 0, list_.capacity()) {
   for (std::size_t i = 0; i < particles_; ++i) {
     number_[i] = static_cast<std::int32_t>(i);
     for (int d = 0; d < D; ++d) {
@@ -69,7 +72,7 @@ Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, 
     sum_momenta();
   }
   renew_list(0.0);
-  evaluate(now_, 0.0, md::Wanted::everything);
+  evaluate(now_, 0.0, pairs::Wanted::everything);
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), 0.0);
   conserved_ = shear_.thermostat == Thermostat::isokinetic ? shear_.target_kinetic_energy : energy();
 }
@@ -151,27 +154,32 @@ bool Trajectory<D>::list_lasts(double dt) {
 }
 
 template <int D>
-void Trajectory<D>::evaluate(const Phase<sllod_numbers>& at, double age, md::Wanted wanted) {
+void Trajectory<D>::evaluate(const Phase<sllod_numbers>& at, double age, pairs::Wanted wanted) {
   std::array<double*, D> force;
   for (int d = 0; d < D; ++d) force[d] = force_[d];
-  pair_totals_ =
-      md::lucy_forces<D>(kernel_, list_, pairs::image_table(box_, age), pointers(at.columns, 0), force, wanted, team_);
+  const auto images = pairs::image_table(box_, age);
+  if (reading_ == Reading::md) {
+    pair_totals_ = md::lucy_forces<D>(kernel_, list_, images, pointers(at.columns, 0), force, wanted, team_);
+  } else {
+    pair_totals_ = spam::isentropic_forces<D>(kernel_, spam::Isentropic(), list_, images, pointers(at.columns, 0),
+                                              force, fluid_[0], fluid_[1], wanted, team_);
+  }
   kinetic_ = measure::kinetic_sums<D>(pointers(at.columns, D), pointers(force_, 0), number_.size(), team_);
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), at.numbers[nose_hoover_friction]);
 }
 
 template <int D>
 void Trajectory<D>::prepare(const Phase<sllod_numbers>& at, double age) {
-  evaluate(at, age, md::Wanted::shear_stress);
+  evaluate(at, age, pairs::Wanted::shear_stress);
 }
 
 template <int D>
-bool Trajectory<D>::try_step(double dt, md::Wanted wanted) {
+bool Trajectory<D>::try_step(double dt, pairs::Wanted wanted) {
   const double energy_before = energy();
   const double input_before = now_.numbers[energy_input];
   if (integrator_ == Integrator::runge_kutta_4) {
     runge_kutta_4(*this, now_, list_age_, dt, number_.size(), next_, sum_, team_);
-    evaluate(next_, list_age_ + dt, md::Wanted::everything);
+    evaluate(next_, list_age_ + dt, pairs::Wanted::everything);
   } else {
     next_.numbers = now_.numbers;
     velocity_verlet<D>(now_.columns, dt, number_.size(), next_.columns, force_,
@@ -182,7 +190,7 @@ bool Trajectory<D>::try_step(double dt, md::Wanted wanted) {
   last_error_ = std::abs(energy() - energy_before - (next_.numbers[energy_input] - input_before)) / n;
   if (integrator_ == Integrator::velocity_verlet) {
     // A symplectic step of fixed length errs to and fro in a narrow band: watch the band, and leave the step alone.
-    if (wanted == md::Wanted::everything && !(std::abs(energy() - conserved_) <= watch_.energy_band * n)) {
+    if (wanted == pairs::Wanted::everything && !(std::abs(energy() - conserved_) <= watch_.energy_band * n)) {
       throw RunFailed(
           fmt::format("at time {:.6g} the energy has left a band of {} per particle about its start; use a smaller "
                       "run.step than {}",
@@ -191,7 +199,7 @@ bool Trajectory<D>::try_step(double dt, md::Wanted wanted) {
   } else {
     spent_ = rescales() && !(rescaling_target() > 0.0);
     if (spent_ || !(last_error_ <= watch_.energy_tolerance)) {
-      evaluate(now_, list_age_, md::Wanted::everything);
+      evaluate(now_, list_age_, pairs::Wanted::everything);
       return false;
     }
   }
@@ -268,7 +276,7 @@ std::string Trajectory<D>::why_stuck(bool near, double piece) const {
 }
 
 template <int D>
-void Trajectory<D>::advance(double dt, md::Wanted wanted) {
+void Trajectory<D>::advance(double dt, pairs::Wanted wanted) {
   bool subdivided = halvings_ > 0;
   std::int64_t pieces = std::int64_t{1} << halvings_;
   double piece = dt / static_cast<double>(pieces);

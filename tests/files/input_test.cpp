@@ -83,7 +83,7 @@ std::string fingerprint(const SweepInput& input) {
   std::string text = input.title;
   const auto bits = [](double value) { return fmt::format(" {:016x}", std::bit_cast<std::uint64_t>(value)); };
   for (const auto& p : input.points) {
-    text += fmt::format("\n{} {} {} {} {} {} {} {} {}", p.particles, p.dimension, p.reading, p.kernel,
+    text += fmt::format("\n{} {} {} {} {} {} {} {} {}", p.particles, p.dimension, static_cast<int>(p.reading), p.kernel,
                         static_cast<int>(p.thermostat), static_cast<int>(p.integrator), p.replicas, p.seed, p.rescale);
     for (const double value :
          {p.energy_per_particle, p.density, p.kinetic_temperature.value_or(-1), p.range, p.strain_rate,
@@ -420,7 +420,7 @@ TEST_F(InputTest, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
       {"system.density", "-1.5", above_zero},
       {"system.density", "inf", above_zero},
       {"system.dimension", "3", "2, the only one accepted so far"},
-      {"system.reading", "\"spam\"", "\"md\", the only one accepted so far"},
+      {"system.reading", "\"sph\"", "one of \"md\", \"spam\""},
       {"system.kinetic_temperature", "0", above_zero},
       {"kernel.name", "\"monaghan\"", "\"lucy\", the only one accepted so far"},
       {"kernel.range", "0.0", above_zero},

@@ -20,11 +20,11 @@ constexpr double range = 3.0;
 template <int D>
 struct Forces {
   std::vector<space::Vector<D>> force;  // by particle number
-  PairTotals<D> totals;
+  pairs::PairTotals<D> totals;
 };
 
 template <int D>
-Forces<D> evaluate(const Crowd<D>& crowd, Wanted wanted = Wanted::everything) {
+Forces<D> evaluate(const Crowd<D>& crowd, pairs::Wanted wanted = pairs::Wanted::everything) {
   Arranged<D> arranged(crowd);
   arranged.build(crowd, range, 0.0, 0.0);
   space::Columns columns(D, arranged.list.capacity());
@@ -63,7 +63,7 @@ TEST(LucyAtoms, ForcesEqualASumOverImagesAfterManyStrainsOfEitherSign) {
     const auto crowd = Crowd<2>::random(63, box, 0.5, generator());
     const auto ours = evaluate(crowd);
     std::vector<space::Vector<2>> force(63, {0.0, 0.0});
-    Tensor<2> virial = Tensor<2>::Zero();
+    pairs::Tensor<2> virial = pairs::Tensor<2>::Zero();
     for_all_pairs<2>(box, crowd.position, 0.0, range,
                      [&](std::size_t i, std::size_t j, const auto& apart, const auto&) {
                        const double slope = kernel.slope(std::hypot(apart[0], apart[1]));
@@ -109,7 +109,7 @@ TEST(LucyAtoms, PressureIsMinusTheDerivativeOfTheEnergyByStrain) {
   const space::Vector<2> lengths{8.0, 7.0};
   const double offset = 2.7;
   const auto crowd = Crowd<2>::random(56, space::Box<2>(lengths, 0.0, offset), 0.5, 23);
-  const Tensor<2> virial = evaluate(crowd).totals.virial;
+  const pairs::Tensor<2> virial = evaluate(crowd).totals.virial;
   // r -> (1 + strain e_a e_b) r of everything: particles, box, images.
   const auto strained_energy = [&](int a, int b, double strain) {
     Crowd<2> moved = crowd;
@@ -133,7 +133,7 @@ TEST(LucyAtoms, ForcesAddUpToZeroAndTheQuickPassGivesTheSameShearStress) {
   const space::Box<2> box({32.0, 32.0}, 0.0, 11.0);
   const auto crowd = Crowd<2>::random(1024, box, 0.5, 24);
   const auto full = evaluate(crowd);
-  const auto quick = evaluate(crowd, Wanted::shear_stress);
+  const auto quick = evaluate(crowd, pairs::Wanted::shear_stress);
   space::Vector<2> total{};
   for (std::size_t i = 0; i < full.force.size(); ++i) {
     EXPECT_EQ(full.force[i], quick.force[i]);

@@ -34,6 +34,11 @@ class Results(ProgramTest):
         self.sweep("tiny.toml", "--out", "two", "--set", "run.threads=2", *large)
         self.assertEqual(self.contents("one"), self.contents("two"))
 
+    def test_smooth_particles_give_the_table_of_the_atoms_to_the_bit(self):
+        self.sweep("tiny.toml", "--out", "md")
+        self.sweep("tiny.toml", "--out", "spam", "--set", 'system.reading="spam"')
+        self.assertEqual(self.contents("md"), self.contents("spam"))
+
     def test_rows_do_not_depend_on_the_rest_of_the_table(self):
         self.sweep("tiny.toml", "--out", "both")
         self.sweep("tiny.toml", "--out", "second", "--set", "shear.strain_rate=1")

@@ -27,7 +27,7 @@ struct CouettePoint {
   double energy_per_particle = 0.0;  ///< (Phi + K)/N, no self term
   double density = 1.0;              ///< number density n sigma^2
   int dimension = 2;
-  std::string reading = "md";
+  motion::Reading reading = motion::Reading::md;
   std::optional<double> kinetic_temperature;  ///< target kT of isokinetic and Nose-Hoover; default: the start's
   // [kernel]
   std::string kernel = "lucy";

@@ -43,7 +43,7 @@ struct GreenKuboPoint {
   double energy_per_particle = 0.0;  ///< (Phi + K)/N, no self term
   double density = 1.0;              ///< number density n sigma^2
   int dimension = 2;
-  std::string reading = "md";
+  motion::Reading reading = motion::Reading::md;
   // [kernel]
   std::string kernel = "lucy";
   double range = 3.0;  ///< h

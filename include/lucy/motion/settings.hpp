@@ -24,4 +24,11 @@ inline constexpr std::array<std::pair<std::string_view, Integrator>, 2> integrat
     {"velocity-verlet", Integrator::velocity_verlet},
 }};
 
+/// How the pair sum is read (pairs/pair_force.hpp): as atoms, or as smooth particles of the fluid P = rho^2/2.
+enum class Reading { md, spam };
+inline constexpr std::array<std::pair<std::string_view, Reading>, 2> reading_names = {{
+    {"md", Reading::md},
+    {"spam", Reading::spam},
+}};
+
 }  // namespace lucy::motion

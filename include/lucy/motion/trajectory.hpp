@@ -52,13 +52,13 @@ class Trajectory {
   /// The isokinetic thermostat scales the start to its target kinetic energy, when one is given.
   /// Throws RunFailed when the box is too small for the range.
   Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear, Integrator integrator,
-             const Watch& watch, const Team& team);
+             const Watch& watch, const Team& team, Reading reading = Reading::md);
 
   /// Moves on by `dt`. Throws RunFailed, naming time and cause, when even the smallest substep fails.
   /// `wanted`: what is to be known of the new state. Velocity Verlet goes on without energy and stress: where they are
   /// not wanted they stay unknown (nan), the energy unwatched in that step and the next, and it takes a quarter less
   /// time.
-  void advance(double dt, md::Wanted wanted = md::Wanted::everything);
+  void advance(double dt, pairs::Wanted wanted = pairs::Wanted::everything);
 
   /// Sorts the particles and makes the neighbour list anew, for steps of `dt`. The list is no part of what save()
   /// writes: a loaded trajectory goes on with the same bits as the saved one if both renew their list first.
@@ -72,7 +72,7 @@ class Trajectory {
   const WatchReport& report() const { return report_; }
 
   /// Pair sums, kinetic sums and total energy of the present state.
-  const md::PairTotals<D>& pair_totals() const { return pair_totals_; }
+  const pairs::PairTotals<D>& pair_totals() const { return pair_totals_; }
   const measure::KineticSums<D>& kinetic() const { return kinetic_; }
   double energy() const { return pair_totals_.potential_energy + kinetic_.kinetic_energy(); }
   double friction() const { return friction_.zeta; }
@@ -105,8 +105,8 @@ class Trajectory {
   std::string why_stuck(bool near, double piece) const;
   static std::array<const double*, D> pointers(const space::Columns& columns, int first);
   bool list_lasts(double dt);
-  bool try_step(double dt, md::Wanted wanted);
-  void evaluate(const Phase<sllod_numbers>& at, double age, md::Wanted wanted);
+  bool try_step(double dt, pairs::Wanted wanted);
+  void evaluate(const Phase<sllod_numbers>& at, double age, pairs::Wanted wanted);
   void rescale();
   std::vector<double> by_particle(const space::Columns& columns, int first) const;
   void copy_by_particle(const space::Columns& columns, int first, std::span<double> values) const;
@@ -116,6 +116,7 @@ class Trajectory {
   Integrator integrator_;
   Watch watch_;
   Team team_;
+  Reading reading_;
   std::size_t particles_;
   space::Box<D> box_;  // at the moment the list was made
   pairs::ClusterList<D> list_;
@@ -126,6 +127,7 @@ class Trajectory {
   Phase<sllod_numbers> next_;
   space::Columns sum_;    // scratch of the integrator
   space::Columns force_;  // at `now_`, between steps
+  space::Columns fluid_;  // density and P/rho^2, of smooth particles only
   double time_ = 0.0;
 
   double list_age_ = 0.0;
@@ -136,7 +138,7 @@ class Trajectory {
   bool spent_ = false;              // the last trial step left no kinetic energy to rescale
   double conserved_ = 0.0;          // E (isoenergetic) or K (isokinetic) at the start
 
-  md::PairTotals<D> pair_totals_;
+  pairs::PairTotals<D> pair_totals_;
   measure::KineticSums<D> kinetic_;
   SllodFriction friction_;
   WatchReport report_;
