@@ -242,10 +242,10 @@ std::int64_t CouetteRun::intervals_needed(double duration) const {
 
 const CouetteRecord& CouetteRun::record() const { return self_->record; }
 
-CouetteFrame CouetteRun::frame() const {
+Frame CouetteRun::frame() const {
   const auto& trajectory = self_->trajectory;
   const auto box = trajectory.box();
-  CouetteFrame frame;
+  Frame frame;
   frame.step = self_->done * self_->steps_per_sample;
   frame.time = static_cast<double>(frame.step) * self_->point.step;
   frame.offset = box.offset();

@@ -276,10 +276,10 @@ const std::vector<StressSample>& GreenKuboRun::series() const { return self_->se
 
 std::int64_t GreenKuboRun::first_recorded_step() const { return self_->rest_intervals * self_->steps_per_interval; }
 
-CouetteFrame GreenKuboRun::frame() const {
+Frame GreenKuboRun::frame() const {
   const Implementation& self = *self_;
   const auto box = self.trajectory->box();
-  CouetteFrame frame;
+  Frame frame;
   frame.step = (self.done - self.preparation_intervals) * self.steps_per_interval;
   frame.time = static_cast<double>(frame.step) * self.point.step;
   frame.offset = box.offset();

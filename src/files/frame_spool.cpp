@@ -58,7 +58,7 @@ void FrameSpool::close_file() {
 
 std::int64_t FrameSpool::record_size() const { return 8 * (5 + 4 * particles_ + 1); }
 
-void FrameSpool::append(const cases::CouetteFrame& frame) {
+void FrameSpool::append(const cases::Frame& frame) {
   const auto numbers = static_cast<std::size_t>(2 * particles_);
   if (frame.position.size() != numbers || frame.momentum.size() != numbers)
     throw RunFailed(fmt::format("a frame of {} particles cannot be added to {}, which holds frames of {}",
@@ -108,10 +108,10 @@ std::vector<std::byte> FrameSpool::read_record(std::int64_t index) const {
   return bytes;
 }
 
-cases::CouetteFrame FrameSpool::read(std::int64_t index) const {
+cases::Frame FrameSpool::read(std::int64_t index) const {
   const std::vector<std::byte> bytes = read_record(index);
   ArchiveReader record(bytes);
-  cases::CouetteFrame frame;
+  cases::Frame frame;
   frame.step = record.get<std::int64_t>();
   frame.time = record.get<double>();
   frame.offset = record.get<double>();
@@ -123,8 +123,8 @@ cases::CouetteFrame FrameSpool::read(std::int64_t index) const {
   return frame;
 }
 
-std::vector<cases::CouetteFrame> FrameSpool::read_all() const {
-  std::vector<cases::CouetteFrame> frames;
+std::vector<cases::Frame> FrameSpool::read_all() const {
+  std::vector<cases::Frame> frames;
   frames.reserve(static_cast<std::size_t>(count_));
   for (std::int64_t i = 0; i < count_; ++i) frames.push_back(read(i));
   return frames;

@@ -354,7 +354,7 @@ void write_particles(hid_t particles, const std::string& name, double strain_rat
   const Handle velocity_value = create_dataset(velocity, "value", H5T_IEEE_F64LE, shape);
   const Handle momentum_value = create_dataset(momentum, "value", H5T_IEEE_F64LE, shape);
   for (hsize_t index = 0; index < count; ++index) {
-    const cases::CouetteFrame frame = frames.read(static_cast<std::int64_t>(index));
+    const cases::Frame frame = frames.read(static_cast<std::int64_t>(index));
     std::vector<double> laboratory = frame.momentum;  // m = 1
     for (std::size_t i = 0; i < laboratory.size(); i += 2) laboratory[i] += strain_rate * frame.position[i + 1];
     write_entry(position_value, shape, index, frame.position);

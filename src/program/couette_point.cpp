@@ -24,7 +24,7 @@ class CouetteReplica final : public Replica {
   void advance() override { run_.advance_one_sample(); }
   std::int64_t intervals_done() const override { return run_.intervals_done(); }
   bool frame_due() const override { return run_.frame_due(); }
-  cases::CouetteFrame frame() const override { return run_.frame(); }
+  cases::Frame frame() const override { return run_.frame(); }
   void save(ArchiveWriter& archive) const override { run_.save(archive); }
   void load(ArchiveReader& archive) override { run_.load(archive); }
 

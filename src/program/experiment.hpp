@@ -36,7 +36,7 @@ class Replica {
   virtual std::int64_t intervals_done() const = 0;
   /// Whether a frame is to be recorded now, and that frame.
   virtual bool frame_due() const = 0;
-  virtual cases::CouetteFrame frame() const = 0;
+  virtual cases::Frame frame() const = 0;
   virtual void save(ArchiveWriter& archive) const = 0;
   virtual void load(ArchiveReader& archive) = 0;
 };

@@ -214,7 +214,7 @@ TEST(Couette, FramesFallOnTheirIntervalAndLieInTheBox) {
     run.advance_one_sample();
     if (!run.frame_due()) continue;
     ++frames;
-    const CouetteFrame frame = run.frame();
+    const Frame frame = run.frame();
     EXPECT_NEAR(std::remainder(frame.time - 1.0, 2.5), 0.0, 1e-9);
     const double offset = 0.7 * 8.0 * frame.time;
     EXPECT_NEAR(std::remainder(frame.offset - offset, 8.0), 0.0, 1e-9);

@@ -47,8 +47,8 @@ cases::CouetteRecord record(std::size_t samples) {
   return result;
 }
 
-cases::CouetteFrame frame(int number) {
-  cases::CouetteFrame result;
+cases::Frame frame(int number) {
+  cases::Frame result;
   result.step = 20 * number;
   result.time = number;
   result.offset = 0.25 * number;
@@ -60,7 +60,7 @@ cases::CouetteFrame frame(int number) {
   return result;
 }
 
-void expect_equal(const cases::CouetteFrame& a, const cases::CouetteFrame& b) {
+void expect_equal(const cases::Frame& a, const cases::Frame& b) {
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.offset, b.offset);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "lucy/archive.hpp"
+#include "lucy/cases/frame.hpp"
 #include "lucy/motion/settings.hpp"
 
 namespace lucy::cases {
@@ -82,16 +83,6 @@ struct CouetteRecord {
   double energy_rescaled = 0;  ///< sum over steps of the energy per particle that momentum rescaling put back (signed)
 };
 
-/// A configuration for people to look at: positions wrapped into the box, peculiar momenta, by particle number.
-struct CouetteFrame {
-  std::int64_t step = 0;
-  double time = 0.0;
-  double offset = 0.0;  ///< x-shift of the image above, in [0, L_x)
-  std::array<double, 2> box{};
-  std::vector<double> position;  ///< x0 y0 x1 y1 ..., in [0, L)
-  std::vector<double> momentum;  ///< peculiar, same order
-};
-
 /// One replica of one point: created at its start (or loaded), advanced one sample at a time.
 /// Between calls the complete state can be saved; a loaded run continues with the same bits.
 class CouetteRun {
@@ -112,7 +103,7 @@ class CouetteRun {
   std::int64_t intervals_needed(double duration) const;
 
   const CouetteRecord& record() const;
-  CouetteFrame frame() const;
+  Frame frame() const;
   /// True when advance_one_sample() has just ended on a multiple of frame_interval of recorded time (and at its start).
   bool frame_due() const;
 

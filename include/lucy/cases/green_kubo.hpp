@@ -165,7 +165,7 @@ class GreenKuboRun {
   const std::vector<StressSample>& series() const;
   /// Steps at rest that had been run when the recording began.
   std::int64_t first_recorded_step() const;
-  CouetteFrame frame() const;
+  Frame frame() const;
   bool frame_due() const;
 
   void save(ArchiveWriter& archive) const;

@@ -29,7 +29,7 @@ class FrameSpool {
   std::int64_t count() const { return count_; }
 
   /// Throws RunFailed when the disk refuses; the records before stay whole.
-  void append(const cases::CouetteFrame& frame);
+  void append(const cases::Frame& frame);
 
   /// Forgets all but the first `count` records (and half a record at the end). Throws RunFailed when there are
   /// fewer, or when one of those that stay is damaged; the file is then as it was.
@@ -39,8 +39,8 @@ class FrameSpool {
   void synchronise();
 
   /// Throws RunFailed when there is no such record, or it cannot be read or is damaged.
-  cases::CouetteFrame read(std::int64_t index) const;
-  std::vector<cases::CouetteFrame> read_all() const;
+  cases::Frame read(std::int64_t index) const;
+  std::vector<cases::Frame> read_all() const;
 
  private:
   std::int64_t record_size() const;
