@@ -17,13 +17,6 @@ namespace lucy::motion {
 
 namespace {
 
-// A list is made for about this much of a typical particle's path, in units of the range: longer lists have longer
-// rows, shorter ones are made more often (measured optimum, flat between 0.05 and 0.09).
-constexpr double typical_path = 0.065;
-// How far, in units of the range, a particle may stray from its straight line before the list expires.
-constexpr double slack_fraction = 0.015;
-// Accelerations may grow by this factor over the one step that a list must still last.
-constexpr double acceleration_margin = 1.5;
 // After a step whose worst error is this much below the tolerance, the next is tried with half as many substeps
 // (a fourth-order step twice as long errs 32 times as much).
 constexpr double ease_factor = 1.0 / 64.0;
@@ -31,39 +24,32 @@ constexpr double ease_factor = 1.0 / 64.0;
 }  // namespace
 
 template <int D>
-std::array<const double*, D> Trajectory<D>::pointers(const space::Columns& columns, int first) {
-  std::array<const double*, D> result;
-  for (int d = 0; d < D; ++d) result[d] = columns[first + d];
-  return result;
-}
-
-template <int D>
 Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear,
-                          Integrator integrator, const Watch& watch, const Team& team, Reading reading)
+                          Integrator integrator, const Watch& watch, const Team& team, Reading reading,
+                          const spam::Isentropic& fluid)
     : kernel_(kernel),
       shear_(shear),
       integrator_(integrator),
       watch_(watch),
       team_(team),
       reading_(reading),
-      particles_(start.position.size()),
-      box_(start.lengths, shear.strain_rate),
-      list_(static_cast<std::int64_t>(start.position.size()), start.lengths),
-      number_(particles_),
-      now_{space::Columns(columns, list_.capacity()), {}},
-      next_{space::Columns(columns, list_.capacity()), {}},
-      sum_(columns, list_.capacity()),
-      force_(D, list_.capacity()),
-      fluid_(reading == Reading::spam ? 2 : 0, list_.capacity()) {
-  for (std::size_t i = 0; i < particles_; ++i) {
-    number_[i] = static_cast<std::int32_t>(i);
+      fluid_(fluid),
+      near_(space::Box<D>(start.lengths, shear.strain_rate), start.position.size(), kernel.range()),
+      now_{space::Columns(columns, near_.capacity()), {}},
+      next_{space::Columns(columns, near_.capacity()), {}},
+      sum_(columns, near_.capacity()),
+      force_(D, near_.capacity()),
+      density_(reading == Reading::spam ? 1 : 0, near_.capacity()),
+      specific_pressure_(density_.count(), near_.capacity()) {
+  for (std::size_t i = 0; i < start.position.size(); ++i) {
     for (int d = 0; d < D; ++d) {
       now_.columns[d][i] = start.position[i][d];
       now_.columns[D + d][i] = start.momentum[i][d];
     }
   }
   const auto sum_momenta = [&] {
-    kinetic_ = measure::kinetic_sums<D>(pointers(now_.columns, D), pointers(force_, 0), now_.columns.slots(), team_);
+    kinetic_ =
+        measure::kinetic_sums<D>(pointers<D>(now_.columns, D), pointers<D>(force_, 0), now_.columns.slots(), team_);
   };
   sum_momenta();
   if (!(shear_.target_kinetic_energy > 0.0)) shear_.target_kinetic_energy = kinetic_.kinetic_energy();
@@ -78,93 +64,34 @@ Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, 
 }
 
 template <int D>
-space::Box<D> Trajectory<D>::box() const {
-  space::Box<D> present = box_;
-  present.advance(list_age_);
-  return present;
-}
-
-template <int D>
 void Trajectory<D>::renew_list(double dt) {
-  box_.advance(list_age_);
-  list_age_ = 0.0;
-  for (std::size_t slot = 0; slot < number_.size(); ++slot) {
-    if (number_[slot] == pairs::nobody) continue;
-    space::Vector<D> position;
-    for (int d = 0; d < D; ++d) position[d] = now_.columns[d][slot];
-    box_.wrap(position);
-    for (int d = 0; d < D; ++d) now_.columns[d][slot] = position[d];
-  }
-
-  const auto order = list_.arrange(pointers(now_.columns, 0), number_);
-  const auto take = [&](const double* from, double* to, auto empty) {
-    for (std::size_t slot = 0; slot < order.size(); ++slot) {
-      to[slot] = order[slot] == pairs::nobody ? empty(slot) : from[order[slot]];
-    }
-  };
-  const auto zero = [](std::size_t) { return 0.0; };
-  for (int d = 0; d < D; ++d) std::copy_n(force_[d], number_.size(), sum_[d]);
-  for (int c = 0; c < columns; ++c) {
-    if (c == 0) {
-      take(now_.columns[c], next_.columns[c], pairs::far_away);
-    } else {
-      take(now_.columns[c], next_.columns[c], zero);
-    }
-  }
-  for (int d = 0; d < D; ++d) take(sum_[d], force_[d], zero);
-  std::swap(now_.columns, next_.columns);
-  number_before_.swap(number_);
-  number_.resize(order.size());
-  for (std::size_t slot = 0; slot < order.size(); ++slot) {
-    const std::int32_t from = order[slot];
-    number_[slot] = from == pairs::nobody ? pairs::nobody : number_before_[static_cast<std::size_t>(from)];
-  }
-
-  const double range = kernel_.range();
-  const double fastest = std::sqrt(kinetic_.largest_square);
-  const double typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles_)));
-  list_acceleration_ = largest_acceleration();
-  pairs::ListReach reach;
-  reach.range = range;
-  reach.slack = slack_fraction * range;
-  reach.largest_speed = fastest;
-  reach.typical_speed = typical;
-  const double bound = std::min(std::sqrt(2.0 * reach.slack / (acceleration_margin * list_acceleration_ + 1e-300)),
-                                list_.longest_lifetime(range, reach.slack, fastest, shear_.strain_rate));
-  // Whole steps, so that no part of the lifetime is paid for and not used; at least one, where the bound allows it.
-  reach.lifetime = std::min(std::max(dt, typical_path * range / typical), bound);
-  if (dt > 0.0 && reach.lifetime > dt) {
-    reach.lifetime = std::min(bound, dt * std::floor(reach.lifetime / dt * (1.0 + 1e-12)));
-  }
-  list_.build(pointers(now_.columns, 0), pointers(now_.columns, D), box_, reach, team_);
-  list_lifetime_ = reach.lifetime;
+  near_.sort(now_.columns, next_.columns, {&force_});
+  Speeds speeds;
+  speeds.largest = std::sqrt(kinetic_.largest_square);
+  speeds.typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles())));
+  speeds.acceleration = largest_acceleration();
+  near_.make_list(now_.columns, speeds, dt, team_);
 }
 
 template <int D>
 bool Trajectory<D>::list_lasts(double dt) {
-  const auto lasts = [&] {
-    list_acceleration_ = std::max(list_acceleration_, largest_acceleration());
-    const double age = list_age_ + dt;
-    return age <= list_lifetime_ * (1.0 + 1e-9) &&
-           0.5 * acceleration_margin * list_acceleration_ * age * age <= slack_fraction * kernel_.range();
-  };
-  if (lasts()) return true;
+  if (near_.lasts(dt, largest_acceleration())) return true;
   renew_list(dt);
-  return lasts();
+  return near_.lasts(dt, largest_acceleration());
 }
 
 template <int D>
 void Trajectory<D>::evaluate(const Phase<sllod_numbers>& at, double age, pairs::Wanted wanted) {
   std::array<double*, D> force;
   for (int d = 0; d < D; ++d) force[d] = force_[d];
-  const auto images = pairs::image_table(box_, age);
+  const auto images = near_.images(age);
   if (reading_ == Reading::md) {
-    pair_totals_ = md::lucy_forces<D>(kernel_, list_, images, pointers(at.columns, 0), force, wanted, team_);
+    pair_totals_ = md::lucy_forces<D>(kernel_, near_.list(), images, pointers<D>(at.columns, 0), force, wanted, team_);
   } else {
-    pair_totals_ = spam::isentropic_forces<D>(kernel_, spam::Isentropic(), list_, images, pointers(at.columns, 0),
-                                              force, fluid_[0], fluid_[1], wanted, team_);
+    pair_totals_ = spam::isentropic_forces<D>(kernel_, fluid_, near_.list(), images, pointers<D>(at.columns, 0), force,
+                                              density_[0], specific_pressure_[0], wanted, team_);
   }
-  kinetic_ = measure::kinetic_sums<D>(pointers(at.columns, D), pointers(force_, 0), number_.size(), team_);
+  kinetic_ = measure::kinetic_sums<D>(pointers<D>(at.columns, D), pointers<D>(force_, 0), near_.slots(), team_);
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), at.numbers[nose_hoover_friction]);
 }
 
@@ -178,15 +105,15 @@ bool Trajectory<D>::try_step(double dt, pairs::Wanted wanted) {
   const double energy_before = energy();
   const double input_before = now_.numbers[energy_input];
   if (integrator_ == Integrator::runge_kutta_4) {
-    runge_kutta_4(*this, now_, list_age_, dt, number_.size(), next_, sum_, team_);
-    evaluate(next_, list_age_ + dt, pairs::Wanted::everything);
+    runge_kutta_4(*this, now_, near_.age(), dt, near_.slots(), next_, sum_, team_);
+    evaluate(next_, near_.age() + dt, pairs::Wanted::everything);
   } else {
     next_.numbers = now_.numbers;
-    velocity_verlet<D>(now_.columns, dt, number_.size(), next_.columns, force_,
-                       [&](const space::Columns&) { evaluate(next_, list_age_ + dt, wanted); });
-    kinetic_ = measure::kinetic_sums<D>(pointers(next_.columns, D), pointers(force_, 0), number_.size(), team_);
+    velocity_verlet<D>(now_.columns, dt, near_.slots(), next_.columns, force_,
+                       [&](const space::Columns&) { evaluate(next_, near_.age() + dt, wanted); });
+    kinetic_ = measure::kinetic_sums<D>(pointers<D>(next_.columns, D), pointers<D>(force_, 0), near_.slots(), team_);
   }
-  const auto n = static_cast<double>(particles_);
+  const auto n = static_cast<double>(particles());
   last_error_ = std::abs(energy() - energy_before - (next_.numbers[energy_input] - input_before)) / n;
   if (integrator_ == Integrator::velocity_verlet) {
     // A symplectic step of fixed length errs to and fro in a narrow band: watch the band, and leave the step alone.
@@ -199,13 +126,13 @@ bool Trajectory<D>::try_step(double dt, pairs::Wanted wanted) {
   } else {
     spent_ = rescales() && !(rescaling_target() > 0.0);
     if (spent_ || !(last_error_ <= watch_.energy_tolerance)) {
-      evaluate(now_, list_age_, pairs::Wanted::everything);
+      evaluate(now_, near_.age(), pairs::Wanted::everything);
       return false;
     }
   }
   std::swap(now_, next_);
   time_ += dt;
-  list_age_ += dt;
+  near_.advance(dt);
   if (std::isfinite(last_error_)) report_.worst_energy_error = std::max(report_.worst_energy_error, last_error_);
   if (rescales()) rescale();
   return true;
@@ -213,7 +140,7 @@ bool Trajectory<D>::try_step(double dt, pairs::Wanted wanted) {
 
 template <int D>
 double Trajectory<D>::largest_acceleration() const {
-  return std::sqrt(measure::largest_square<D>(pointers(force_, 0), number_.size())) +
+  return std::sqrt(measure::largest_square<D>(pointers<D>(force_, 0), near_.slots())) +
          std::abs(friction_.zeta) * std::sqrt(kinetic_.largest_square);
 }
 
@@ -230,7 +157,7 @@ double Trajectory<D>::rescaling_target() const {
 
 template <int D>
 void Trajectory<D>::scale_momenta(double factor) {
-  const std::size_t slots = number_.size();
+  const std::size_t slots = near_.slots();
   const auto chunks = static_cast<std::ptrdiff_t>((slots + chunk_slots - 1) / chunk_slots);
   team_.share(chunks, [&](std::ptrdiff_t chunk) {
     const std::size_t begin = static_cast<std::size_t>(chunk) * chunk_slots;
@@ -248,7 +175,7 @@ void Trajectory<D>::rescale() {
   const double square = rescaling_target() / kinetic;
   const double factor = std::sqrt(square);
   scale_momenta(factor);
-  report_.energy_rescaled += (rescaling_target() - kinetic) / static_cast<double>(particles_);
+  report_.energy_rescaled += (rescaling_target() - kinetic) / static_cast<double>(particles());
   kinetic_.momentum_flux *= square;
   kinetic_.force_power *= factor;
   kinetic_.largest_square *= square;
@@ -267,7 +194,7 @@ std::string Trajectory<D>::why_stuck(bool near, double piece) const {
     return fmt::format(
         "{}, the thermostat uses up the kinetic energy ({:.3g} per particle is left): at this energy and "
         "strain rate there is no steady flow",
-        when, kinetic_.kinetic_energy() / static_cast<double>(particles_));
+        when, kinetic_.kinetic_energy() / static_cast<double>(particles()));
   }
   return fmt::format(
       "{}, a step changes the energy by {:.3g} per particle, which is more than run.energy_tolerance = "
@@ -300,48 +227,32 @@ void Trajectory<D>::advance(double dt, pairs::Wanted wanted) {
 }
 
 template <int D>
-std::vector<double> Trajectory<D>::by_particle(const space::Columns& columns, int first) const {
-  std::vector<double> values(particles_ * D);
-  copy_by_particle(columns, first, values);
+std::vector<double> Trajectory<D>::momenta() const {
+  std::vector<double> values(near_.particles() * D);
+  copy_momenta(values);
   return values;
 }
 
 template <int D>
-void Trajectory<D>::copy_by_particle(const space::Columns& columns, int first, std::span<double> values) const {
-  for (std::size_t slot = 0; slot < number_.size(); ++slot) {
-    if (number_[slot] == pairs::nobody) continue;
-    for (int d = 0; d < D; ++d) values[static_cast<std::size_t>(number_[slot]) * D + d] = columns[first + d][slot];
-  }
+std::vector<double> Trajectory<D>::forces() const {
+  std::vector<double> values(near_.particles() * D);
+  copy_forces(values);
+  return values;
 }
 
 template <int D>
 md::HeatFlux<D> Trajectory<D>::heat_flux() const {
-  return md::heat_flux<D>(kernel_, list_, pairs::image_table(box_, list_age_), pointers(now_.columns, 0),
-                          pointers(now_.columns, D), team_);
-}
-
-template <int D>
-std::vector<double> Trajectory<D>::positions() const {
-  std::vector<double> values = by_particle(now_.columns, 0);
-  const space::Box<D> present = box();
-  for (std::size_t i = 0; i < particles_; ++i) {
-    space::Vector<D> position;
-    std::copy_n(values.data() + i * D, D, position.data());
-    present.wrap(position);
-    std::copy_n(position.data(), D, values.data() + i * D);
-  }
-  return values;
+  return md::heat_flux<D>(kernel_, near_.list(), near_.images(near_.age()), pointers<D>(now_.columns, 0),
+                          pointers<D>(now_.columns, D), team_);
 }
 
 template <int D>
 void Trajectory<D>::save(ArchiveWriter& archive) const {
-  archive.put_sequence(number_);
-  for (int c = 0; c < columns; ++c) archive.put_sequence(std::span(now_.columns[c], number_.size()));
-  for (int d = 0; d < D; ++d) archive.put_sequence(std::span(force_[d], number_.size()));
+  near_.save(archive);
+  for (int c = 0; c < columns; ++c) archive.put_sequence(std::span(now_.columns[c], near_.slots()));
+  for (int d = 0; d < D; ++d) archive.put_sequence(std::span(force_[d], near_.slots()));
   archive.put(now_.numbers);
-  archive.put(box_.offset());
   archive.put(time_);
-  archive.put(list_age_);
   archive.put(halvings_);
   archive.put(conserved_);
   archive.put(shear_.target_kinetic_energy);
@@ -356,27 +267,17 @@ void Trajectory<D>::save(ArchiveWriter& archive) const {
 
 template <int D>
 void Trajectory<D>::load(ArchiveReader& archive) {
-  archive.get_sequence(number_);
-  std::size_t there = 0;
-  for (const std::int32_t number : number_) {
-    if (number >= static_cast<std::int32_t>(particles_)) there = particles_ + 1;
-    if (number != pairs::nobody) ++there;
-  }
-  if (number_.size() > now_.columns.slots() || there != particles_) {
-    throw RunFailed("a saved state does not hold the particles of the input");
-  }
+  near_.load(archive);
   std::vector<double> column;
   const auto get_column = [&](double* to) {
     archive.get_sequence(column);
-    if (column.size() != number_.size()) throw RunFailed("a saved state has columns of different lengths");
+    if (column.size() != near_.slots()) throw RunFailed("a saved state has columns of different lengths");
     std::copy(column.begin(), column.end(), to);
   };
   for (int c = 0; c < columns; ++c) get_column(now_.columns[c]);
   for (int d = 0; d < D; ++d) get_column(force_[d]);
   now_.numbers = archive.get<std::array<double, sllod_numbers>>();
-  box_ = space::Box<D>(box_.lengths(), shear_.strain_rate, archive.get<double>());
   time_ = archive.get<double>();
-  list_age_ = archive.get<double>();
   halvings_ = archive.get<int>();
   conserved_ = archive.get<double>();
   shear_.target_kinetic_energy = archive.get<double>();
@@ -387,7 +288,6 @@ void Trajectory<D>::load(ArchiveReader& archive) {
   kinetic_.largest_square = archive.get<double>();
   friction_ = archive.get<SllodFriction>();
   report_ = archive.get<WatchReport>();
-  list_lifetime_ = 0.0;  // the list is not part of the state: renew_list() comes next
 }
 
 template class Trajectory<2>;

@@ -21,11 +21,12 @@
 #include "lucy/md/heat_flux.hpp"
 #include "lucy/md/lucy_atoms.hpp"
 #include "lucy/measure/kinetic.hpp"
+#include "lucy/motion/neighbourhood.hpp"
 #include "lucy/motion/settings.hpp"
 #include "lucy/motion/sllod.hpp"
 #include "lucy/motion/start.hpp"
-#include "lucy/pairs/cluster_list.hpp"
 #include "lucy/space/box.hpp"
+#include "lucy/spam/isentropic_forces.hpp"
 
 namespace lucy::motion {
 
@@ -51,8 +52,10 @@ class Trajectory {
 
   /// The isokinetic thermostat scales the start to its target kinetic energy, when one is given.
   /// Throws RunFailed when the box is too small for the range.
+  /// `fluid` is what smooth particles are made of; with P0/rho0^2 = 1 they move as the atoms do, to the bit.
   Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear, Integrator integrator,
-             const Watch& watch, const Team& team, Reading reading = Reading::md);
+             const Watch& watch, const Team& team, Reading reading = Reading::md,
+             const spam::Isentropic& fluid = spam::Isentropic());
 
   /// Moves on by `dt`. Throws RunFailed, naming time and cause, when even the smallest substep fails.
   /// `wanted`: what is to be known of the new state. Velocity Verlet goes on without energy and stress: where they are
@@ -64,11 +67,11 @@ class Trajectory {
   /// writes: a loaded trajectory goes on with the same bits as the saved one if both renew their list first.
   void renew_list(double dt);
 
-  std::int64_t particles() const { return static_cast<std::int64_t>(particles_); }
+  std::int64_t particles() const { return static_cast<std::int64_t>(near_.particles()); }
   double time() const { return time_; }
-  double volume() const { return box_.volume(); }
+  double volume() const { return near_.box().volume(); }
   /// The box as it is now.
-  space::Box<D> box() const;
+  space::Box<D> box() const { return near_.box(); }
   const WatchReport& report() const { return report_; }
 
   /// Pair sums, kinetic sums and total energy of the present state.
@@ -80,11 +83,16 @@ class Trajectory {
   md::HeatFlux<D> heat_flux() const;
 
   /// By particle number, wrapped into the box: x0 y0 x1 y1 ...; peculiar momenta in the same order; forces likewise.
-  std::vector<double> positions() const;
-  std::vector<double> momenta() const { return by_particle(now_.columns, D); }
-  std::vector<double> forces() const { return by_particle(force_, 0); }
-  /// The same without an allocation: `values` holds D numbers per particle.
-  void copy_momenta(std::span<double> values) const { copy_by_particle(now_.columns, D, values); }
+  std::vector<double> positions() const { return near_.wrapped_positions(now_.columns); }
+  std::vector<double> momenta() const;
+  std::vector<double> forces() const;
+  /// The same without an allocation, `values` holding D numbers per particle; positions as they lie in memory, wrapped
+  /// when the list was made.
+  void copy_positions(std::span<double> values) const { near_.copy_by_particle(now_.columns, 0, values); }
+  void copy_momenta(std::span<double> values) const { near_.copy_by_particle(now_.columns, D, values); }
+  void copy_forces(std::span<double> values) const { near_.copy_by_particle(force_, 0, values); }
+  /// Of smooth particles only: the density at every particle, self term included.
+  void copy_densities(std::span<double> values) const { near_.copy_by_particle(density_, 0, values, 1); }
 
   void save(ArchiveWriter& archive) const;
   /// Takes a state saved by a trajectory of the same settings. Throws RunFailed when it is truncated or of others.
@@ -103,13 +111,10 @@ class Trajectory {
   double rescaling_target() const;
   void scale_momenta(double factor);
   std::string why_stuck(bool near, double piece) const;
-  static std::array<const double*, D> pointers(const space::Columns& columns, int first);
   bool list_lasts(double dt);
   bool try_step(double dt, pairs::Wanted wanted);
   void evaluate(const Phase<sllod_numbers>& at, double age, pairs::Wanted wanted);
   void rescale();
-  std::vector<double> by_particle(const space::Columns& columns, int first) const;
-  void copy_by_particle(const space::Columns& columns, int first, std::span<double> values) const;
 
   kernel::Lucy<D> kernel_;
   Shear shear_;
@@ -117,26 +122,21 @@ class Trajectory {
   Watch watch_;
   Team team_;
   Reading reading_;
-  std::size_t particles_;
-  space::Box<D> box_;  // at the moment the list was made
-  pairs::ClusterList<D> list_;
+  spam::Isentropic fluid_;
+  Neighbourhood<D> near_;
 
-  std::vector<std::int32_t> number_;         // of the particle in each slot
-  std::vector<std::int32_t> number_before_;  // scratch of renew_list()
   Phase<sllod_numbers> now_;
   Phase<sllod_numbers> next_;
-  space::Columns sum_;    // scratch of the integrator
-  space::Columns force_;  // at `now_`, between steps
-  space::Columns fluid_;  // density and P/rho^2, of smooth particles only
+  space::Columns sum_;      // scratch of the integrator
+  space::Columns force_;    // at `now_`, between steps
+  space::Columns density_;  // of smooth particles only, and their P/rho^2
+  space::Columns specific_pressure_;
   double time_ = 0.0;
 
-  double list_age_ = 0.0;
-  double list_lifetime_ = 0.0;
-  double list_acceleration_ = 0.0;  // bound on every particle's, since the list was made
-  int halvings_ = 0;                // of the present step
-  double last_error_ = 0.0;         // |dE|/N of the last trial step
-  bool spent_ = false;              // the last trial step left no kinetic energy to rescale
-  double conserved_ = 0.0;          // E (isoenergetic) or K (isokinetic) at the start
+  int halvings_ = 0;         // of the present step
+  double last_error_ = 0.0;  // |dE|/N of the last trial step
+  bool spent_ = false;       // the last trial step left no kinetic energy to rescale
+  double conserved_ = 0.0;   // E (isoenergetic) or K (isokinetic) at the start
 
   pairs::PairTotals<D> pair_totals_;
   measure::KineticSums<D> kinetic_;
