@@ -80,10 +80,19 @@ double largest_square(const std::array<const double*, D>& columns, std::size_t s
   return hmax(largest);
 }
 
+double column_sum(const double* column, std::size_t slots) {
+  pairs::Lanes sum = 0.0;
+  for (std::size_t i = 0; i < slots; i += pairs::lane_count) sum += pairs::load(column + i);
+  return reduce(sum);
+}
+
+template KineticSums<1> kinetic_sums<1>(const std::array<const double*, 1>&, const std::array<const double*, 1>&,
+                                        std::size_t, const Team&);
 template KineticSums<2> kinetic_sums<2>(const std::array<const double*, 2>&, const std::array<const double*, 2>&,
                                         std::size_t, const Team&);
 template KineticSums<3> kinetic_sums<3>(const std::array<const double*, 3>&, const std::array<const double*, 3>&,
                                         std::size_t, const Team&);
+template double largest_square<1>(const std::array<const double*, 1>&, std::size_t);
 template double largest_square<2>(const std::array<const double*, 2>&, std::size_t);
 template double largest_square<3>(const std::array<const double*, 3>&, std::size_t);
 

@@ -49,8 +49,7 @@ bool Neighbourhood<D>::lasts(double dt, double acceleration) {
 }
 
 template <int D>
-void Neighbourhood<D>::sort(space::Columns& state, space::Columns& scratch,
-                            std::initializer_list<space::Columns*> others) {
+void Neighbourhood<D>::sort(space::Columns& state, space::Columns& scratch, std::span<space::Columns* const> others) {
   box_.advance(age_);
   age_ = 0.0;
   lifetime_ = 0.0;

@@ -15,14 +15,6 @@
 
 namespace lucy::motion {
 
-namespace {
-
-// After a step whose worst error is this much below the tolerance, the next is tried with half as many substeps
-// (a fourth-order step twice as long errs 32 times as much).
-constexpr double ease_factor = 1.0 / 64.0;
-
-}  // namespace
-
 template <int D>
 Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, const Shear& shear,
                           Integrator integrator, const Watch& watch, const Team& team, Reading reading,
@@ -65,7 +57,7 @@ Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, 
 
 template <int D>
 void Trajectory<D>::renew_list(double dt) {
-  near_.sort(now_.columns, next_.columns, {&force_});
+  near_.sort(now_.columns, next_.columns, std::array{&force_});
   Speeds speeds;
   speeds.largest = std::sqrt(kinetic_.largest_square);
   speeds.typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles())));
@@ -204,26 +196,15 @@ std::string Trajectory<D>::why_stuck(bool near, double piece) const {
 
 template <int D>
 void Trajectory<D>::advance(double dt, pairs::Wanted wanted) {
-  bool subdivided = halvings_ > 0;
-  std::int64_t pieces = std::int64_t{1} << halvings_;
-  double piece = dt / static_cast<double>(pieces);
-  double worst = 0.0;
-  while (pieces > 0) {
-    const bool near = list_lasts(piece);
-    if (near && try_step(piece, wanted)) {
-      worst = std::isfinite(last_error_) ? std::max(worst, last_error_) : watch_.energy_tolerance;
-      --pieces;
-      continue;
-    }
-    if (halvings_ == watch_.most_halvings) throw RunFailed(why_stuck(near, piece));
-    ++halvings_;
-    subdivided = true;
-    pieces *= 2;
-    piece /= 2.0;
-  }
-  ++report_.steps;
-  if (subdivided) ++report_.subdivided_steps;
-  if (halvings_ > 0 && worst < ease_factor * watch_.energy_tolerance) --halvings_;
+  bool near = false;
+  advance_in_pieces(
+      dt, watch_, halvings_, report_,
+      [&](double piece) -> std::optional<double> {
+        near = list_lasts(piece);
+        if (near && try_step(piece, wanted)) return last_error_;
+        return std::nullopt;
+      },
+      [&](double piece) { throw RunFailed(why_stuck(near, piece)); });
 }
 
 template <int D>
@@ -249,8 +230,8 @@ md::HeatFlux<D> Trajectory<D>::heat_flux() const {
 template <int D>
 void Trajectory<D>::save(ArchiveWriter& archive) const {
   near_.save(archive);
-  for (int c = 0; c < columns; ++c) archive.put_sequence(std::span(now_.columns[c], near_.slots()));
-  for (int d = 0; d < D; ++d) archive.put_sequence(std::span(force_[d], near_.slots()));
+  now_.columns.save(archive, near_.slots());
+  force_.save(archive, near_.slots());
   archive.put(now_.numbers);
   archive.put(time_);
   archive.put(halvings_);
@@ -258,9 +239,7 @@ void Trajectory<D>::save(ArchiveWriter& archive) const {
   archive.put(shear_.target_kinetic_energy);
   archive.put(pair_totals_.potential_energy);
   for (int a = 0; a < D * D; ++a) archive.put(pair_totals_.virial.data()[a]);
-  for (int a = 0; a < D * D; ++a) archive.put(kinetic_.momentum_flux.data()[a]);
-  archive.put(kinetic_.force_power);
-  archive.put(kinetic_.largest_square);
+  kinetic_.save(archive);
   archive.put(friction_);
   archive.put(report_);
 }
@@ -268,14 +247,8 @@ void Trajectory<D>::save(ArchiveWriter& archive) const {
 template <int D>
 void Trajectory<D>::load(ArchiveReader& archive) {
   near_.load(archive);
-  std::vector<double> column;
-  const auto get_column = [&](double* to) {
-    archive.get_sequence(column);
-    if (column.size() != near_.slots()) throw RunFailed("a saved state has columns of different lengths");
-    std::copy(column.begin(), column.end(), to);
-  };
-  for (int c = 0; c < columns; ++c) get_column(now_.columns[c]);
-  for (int d = 0; d < D; ++d) get_column(force_[d]);
+  now_.columns.load(archive, near_.slots());
+  force_.load(archive, near_.slots());
   now_.numbers = archive.get<std::array<double, sllod_numbers>>();
   time_ = archive.get<double>();
   halvings_ = archive.get<int>();
@@ -283,9 +256,7 @@ void Trajectory<D>::load(ArchiveReader& archive) {
   shear_.target_kinetic_energy = archive.get<double>();
   pair_totals_.potential_energy = archive.get<double>();
   for (int a = 0; a < D * D; ++a) pair_totals_.virial.data()[a] = archive.get<double>();
-  for (int a = 0; a < D * D; ++a) kinetic_.momentum_flux.data()[a] = archive.get<double>();
-  kinetic_.force_power = archive.get<double>();
-  kinetic_.largest_square = archive.get<double>();
+  kinetic_.load(archive);
   friction_ = archive.get<SllodFriction>();
   report_ = archive.get<WatchReport>();
 }

@@ -3,23 +3,28 @@
 #include "lucy/spam/density.hpp"
 
 #include <algorithm>
+#include <variant>
 
 namespace lucy::spam {
 
 template <int D>
-void densities(const kernel::Lucy<D>& kernel, const pairs::ClusterList<D>& list, const pairs::ImageTable<D>& images,
+void densities(const kernel::Weight<D>& weight, const pairs::ClusterList<D>& list, const pairs::ImageTable<D>& images,
                const std::array<const double*, D>& position, double* density, const Team& team) {
-  using Sum = DensitySum<D>;
-  std::fill_n(density, list.slots(), kernel.weight_at_zero());
-  const pairs::Pass<D, Sum> pass{position, {}, {density}};
-  pairs::traverse<D>(list, images, kernel.range(), pass, Sum{kernel}, team);
+  std::visit(
+      [&]<class Kernel>(const Kernel& kernel) {
+        using Sum = DensitySum<D, Kernel>;
+        std::fill_n(density, list.slots(), kernel.weight_at_zero());
+        const pairs::Pass<D, Sum> pass{position, {}, {density}};
+        pairs::traverse<D>(list, images, kernel.range(), pass, Sum{kernel}, team);
+      },
+      weight);
 }
 
-template void densities<1>(const kernel::Lucy<1>&, const pairs::ClusterList<1>&, const pairs::ImageTable<1>&,
+template void densities<1>(const kernel::Weight<1>&, const pairs::ClusterList<1>&, const pairs::ImageTable<1>&,
                            const std::array<const double*, 1>&, double*, const Team&);
-template void densities<2>(const kernel::Lucy<2>&, const pairs::ClusterList<2>&, const pairs::ImageTable<2>&,
+template void densities<2>(const kernel::Weight<2>&, const pairs::ClusterList<2>&, const pairs::ImageTable<2>&,
                            const std::array<const double*, 2>&, double*, const Team&);
-template void densities<3>(const kernel::Lucy<3>&, const pairs::ClusterList<3>&, const pairs::ImageTable<3>&,
+template void densities<3>(const kernel::Weight<3>&, const pairs::ClusterList<3>&, const pairs::ImageTable<3>&,
                            const std::array<const double*, 3>&, double*, const Team&);
 
 }  // namespace lucy::spam

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 
+#include "lucy/archive.hpp"
 #include "lucy/team.hpp"
 
 namespace lucy::measure {
@@ -22,6 +23,17 @@ struct KineticSums {
 
   double kinetic_energy() const { return 0.5 * momentum_flux.trace(); }
   double largest_share() const { return largest_square / momentum_flux.trace(); }
+
+  void save(ArchiveWriter& archive) const {
+    for (int a = 0; a < D * D; ++a) archive.put(momentum_flux.data()[a]);
+    archive.put(force_power);
+    archive.put(largest_square);
+  }
+  void load(ArchiveReader& archive) {
+    for (int a = 0; a < D * D; ++a) momentum_flux.data()[a] = archive.get<double>();
+    force_power = archive.get<double>();
+    largest_square = archive.get<double>();
+  }
 };
 
 /// Over all slots (a multiple of eight; empty ones hold zeros). Fixed order of additions for every team.
@@ -32,5 +44,8 @@ KineticSums<D> kinetic_sums(const std::array<const double*, D>& momentum, const 
 /// max_i sum_d column_d[i]^2.
 template <int D>
 double largest_square(const std::array<const double*, D>& columns, std::size_t slots);
+
+/// The sum of a column over all slots (a multiple of eight), in their order.
+double column_sum(const double* column, std::size_t slots);
 
 }  // namespace lucy::measure

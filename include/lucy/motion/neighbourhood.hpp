@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -61,7 +60,7 @@ class Neighbourhood {
 
   /// Wraps and sorts: `state` holds positions in columns 0 .. D-1; `scratch` has its shape, and the other columns are
   /// sorted along.
-  void sort(space::Columns& state, space::Columns& scratch, std::initializer_list<space::Columns*> others);
+  void sort(space::Columns& state, space::Columns& scratch, std::span<space::Columns* const> others);
   /// Makes the list for sorted particles with (peculiar) velocities in columns D .. 2D-1 of `state`, for steps of `dt`.
   void make_list(const space::Columns& state, const Speeds& speeds, double dt, const Team& team);
 

@@ -25,25 +25,11 @@
 #include "lucy/motion/settings.hpp"
 #include "lucy/motion/sllod.hpp"
 #include "lucy/motion/start.hpp"
+#include "lucy/motion/subdivision.hpp"
 #include "lucy/space/box.hpp"
 #include "lucy/spam/isentropic_forces.hpp"
 
 namespace lucy::motion {
-
-struct Watch {
-  double energy_tolerance = 1e-5;  ///< |dE|/N of one step above which it is done again in halves
-  double energy_band = 0.01;       ///< of velocity Verlet: |E - E_0|/N beyond which the run has failed
-  bool rescale = true;             ///< with RK4; isoenergetic: E back to its start, isokinetic: K; others: no effect
-  int most_halvings = 12;
-};
-
-/// What the watch saw.
-struct WatchReport {
-  std::int64_t steps = 0;
-  std::int64_t subdivided_steps = 0;
-  double worst_energy_error = 0.0;  ///< |dE|/N of one accepted (sub)step, before rescaling
-  double energy_rescaled = 0.0;     ///< sum of what rescaling put back, per particle, signed
-};
 
 template <int D>
 class Trajectory {

@@ -5,10 +5,14 @@
 // (x, y, p_x, ...), one entry per particle slot. Vector instructions read them straight.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <new>
 #include <span>
 #include <vector>
+
+#include "lucy/archive.hpp"
+#include "lucy/errors.hpp"
 
 namespace lucy::space {
 
@@ -39,6 +43,19 @@ class Columns {
 
   int count() const { return count_; }
   std::size_t slots() const { return stride_; }
+
+  void save(ArchiveWriter& archive, std::size_t slots_in_use) const {
+    for (int c = 0; c < count_; ++c) archive.put_sequence(std::span((*this)[c], slots_in_use));
+  }
+  /// Throws RunFailed unless every saved column has so many slots.
+  void load(ArchiveReader& archive, std::size_t slots_in_use) {
+    std::vector<double> column;
+    for (int c = 0; c < count_; ++c) {
+      archive.get_sequence(column);
+      if (column.size() != slots_in_use) throw RunFailed("a saved state has columns of different lengths");
+      std::copy(column.begin(), column.end(), (*this)[c]);
+    }
+  }
 
   double* operator[](int column) { return values_.data() + static_cast<std::size_t>(column) * stride_; }
   const double* operator[](int column) const { return values_.data() + static_cast<std::size_t>(column) * stride_; }

@@ -1,7 +1,7 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The density at every smooth particle, self term included:
+// Pass one: the density at every smooth particle, self term included,
 //
 //     rho(r_i) = m sum_j w(r_ij) = m w(0) + m sum_{j != i} w(r_ij)          m = 1
 //
@@ -10,7 +10,7 @@
 
 #include <array>
 
-#include "lucy/kernel/lucy.hpp"
+#include "lucy/kernel/weight.hpp"
 #include "lucy/pairs/lanes.hpp"
 #include "lucy/pairs/traverse.hpp"
 #include "lucy/team.hpp"
@@ -18,14 +18,14 @@
 namespace lucy::spam {
 
 /// The pair sum: each partner gives the other its weight.
-template <int D>
+template <int D, class Kernel>
 struct DensitySum {
   static constexpr int carried = 0;
   static constexpr int lab_velocity = -1;
   static constexpr int given = 1;
   static constexpr int totals = 0;
 
-  kernel::Lucy<D> kernel;
+  Kernel kernel;
 
   void operator()(const pairs::Pair<D, 0>& pair, std::array<pairs::Lanes, 1>& to_i, std::array<pairs::Lanes, 1>& to_j,
                   std::array<pairs::Lanes, 0>&) const {
@@ -36,7 +36,7 @@ struct DensitySum {
 
 /// Overwrites `density`; slots as the list arranged them, empty ones hold w(0).
 template <int D>
-void densities(const kernel::Lucy<D>& kernel, const pairs::ClusterList<D>& list, const pairs::ImageTable<D>& images,
+void densities(const kernel::Weight<D>& weight, const pairs::ClusterList<D>& list, const pairs::ImageTable<D>& images,
                const std::array<const double*, D>& position, double* density, const Team& team);
 
 }  // namespace lucy::spam

@@ -1,0 +1,91 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pass three: the rates of velocity and internal energy of every smooth particle, m = 1,
+//
+//     dv_i/dt = - m sum_j [ (P/rho^2)_i + (P/rho^2)_j ] . grad_i w(r_ij)
+//     de_i/dt = - (m/2) sum_j [ (P/rho^2)_i + (P/rho^2)_j ] : (v_j - v_i) grad_i w(r_ij)
+//               - m sum_j [ (Q/rho^2)_i + (Q/rho^2)_j ] . grad_i w(r_ij)
+//
+// (Kum, Hoover and Posch, Phys. Rev. E 52, 4899 (1995), Eqs. (5) and (6); print sums the last term over i.) With f_ij
+// the force of j on i, the second line is -f_ij . (v_i - v_j)/2, the same for both partners: what the pair's kinetic
+// energy loses is gained half by each, and what heat leaves one enters the other. So momentum and total energy are
+// conserved pair by pair, to rounding.
+//
+// With a scalar pressure [..] is the coefficient c_ij of pairs/pair_force.hpp.
+#pragma once
+
+#include <array>
+
+#include "lucy/pairs/lanes.hpp"
+#include "lucy/pairs/pair_force.hpp"
+#include "lucy/pairs/traverse.hpp"
+
+namespace lucy::spam {
+
+/// What the particles of a pass three carry besides their velocities.
+enum class Carried {
+  scalar_pressure,  ///< P/rho^2: no viscosity, no conduction
+  tensor_and_flux   ///< the lower triangle of P/rho^2 by rows (xx, yx, yy, ...), then Q/rho^2
+};
+
+/// The pair sum. Carries velocities (peculiar), then what `contents` says; gives acceleration and energy rate; totals
+/// sum_{i<j} f_x,ij y_ij, V times the xy component of the pairs' share of the pressure tensor (in one dimension zero).
+template <int D, class Kernel, Carried contents>
+struct RateSum {
+  static constexpr int stresses = contents == Carried::scalar_pressure ? 1 : D * (D + 1) / 2;
+  static constexpr int fluxes = contents == Carried::scalar_pressure ? 0 : D;
+  static constexpr int carried = D + stresses + fluxes;
+  static constexpr int lab_velocity = -1;
+  static constexpr int given = D + 1;
+  static constexpr int totals = 1;
+
+  Kernel kernel;
+  double strain_rate = 0.0;
+
+  void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
+                  std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, totals>& sums) const {
+    const pairs::Lanes slope = kernel.slope(pair.distance);
+    std::array<pairs::Lanes, D> force;
+    if constexpr (contents == Carried::scalar_pressure) {
+      const pairs::Lanes coefficient = (pair.of_i[D] + pair.of_j[D]) * slope;
+      for (int a = 0; a < D; ++a) force[a] = coefficient * pair.displacement[a];
+    } else {
+      std::array<pairs::Lanes, stresses> stress;
+      for (int s = 0; s < stresses; ++s) stress[s] = (pair.of_i[D + s] + pair.of_j[D + s]) * slope;
+      for (int a = 0; a < D; ++a) {
+        force[a] = component(stress, a, 0) * pair.displacement[0];
+        for (int b = 1; b < D; ++b) force[a] = fma(component(stress, a, b), pair.displacement[b], force[a]);
+      }
+    }
+    pairs::Lanes power = 0.0;  // f_ij . (v_i - v_j)
+    for (int a = 0; a < D; ++a) {
+      pairs::Lanes difference = pair.of_i[a] - pair.of_j[a];
+      if constexpr (D > 1) {
+        if (a == 0) difference = fma(strain_rate, pair.displacement[1], difference);
+      }
+      power = fma(force[a], difference, power);
+      to_i[a] = force[a];
+      to_j[a] = -force[a];
+    }
+    to_i[D] = to_j[D] = -0.5 * power;
+    if constexpr (fluxes > 0) {
+      pairs::Lanes heat = 0.0;  // from j to i
+      for (int b = 0; b < D; ++b) {
+        const pairs::Lanes flux = pair.of_i[D + stresses + b] + pair.of_j[D + stresses + b];
+        heat = fma(flux, pair.displacement[b], heat);
+      }
+      heat *= slope;
+      to_i[D] += heat;
+      to_j[D] -= heat;
+    }
+    if constexpr (D > 1) sums[0] = fma(force[0], pair.displacement[1], sums[0]);
+  }
+
+ private:
+  static const pairs::Lanes& component(const std::array<pairs::Lanes, stresses>& tensor, int a, int b) {
+    return a >= b ? tensor[a * (a + 1) / 2 + b] : tensor[b * (b + 1) / 2 + a];
+  }
+};
+
+}  // namespace lucy::spam

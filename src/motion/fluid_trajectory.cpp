@@ -1,0 +1,228 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/motion/fluid_trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lucy/errors.hpp"
+
+namespace lucy::motion {
+
+template <int D>
+FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStart<D>& start, double strain_rate,
+                                    Cooling cooling, const Watch& watch, const Team& team)
+    : strain_rate_(strain_rate),
+      cooling_(cooling),
+      watch_(watch),
+      team_(team),
+      near_(space::Box<D>(start.lengths, strain_rate), start.position.size(), kernel::range_of<D>(fluid.weight)),
+      fluid_(fluid, near_.capacity()),
+      now_{space::Columns(columns, near_.capacity()), {}},
+      next_{space::Columns(columns, near_.capacity()), {}},
+      sum_(columns, near_.capacity()) {
+  for (std::size_t i = 0; i < start.position.size(); ++i) {
+    for (int d = 0; d < D; ++d) {
+      now_.columns[d][i] = start.position[i][d];
+      now_.columns[D + d][i] = start.velocity[i][d];
+    }
+    now_.columns[2 * D][i] = start.energy[i];
+  }
+  kinetic_ = measure::kinetic_sums<D>(pointers<D>(now_.columns, D), pointers<D>(fluid_.acceleration(), 0),
+                                      now_.columns.slots(), team_);
+  renew_list(0.0);
+  prepare(now_, near_.age());
+  start_energy_ = energy();
+  refuse_cold_particles();
+}
+
+template <int D>
+spam::Particles<D> FluidTrajectory<D>::particles_at(const space::Columns& at,
+                                                    const pairs::ImageTable<D>& images) const {
+  return {near_.list(), images, near_.numbers(), pointers<D>(at, 0), pointers<D>(at, D), at[2 * D], strain_rate_};
+}
+
+template <int D>
+void FluidTrajectory<D>::renew_list(double dt) {
+  near_.sort(now_.columns, next_.columns, fluid_.columns_to_sort());
+  Speeds speeds;
+  speeds.largest = std::sqrt(kinetic_.largest_square);
+  speeds.typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles())));
+  speeds.acceleration = largest_acceleration();
+  near_.make_list(now_.columns, speeds, dt, team_);
+}
+
+template <int D>
+bool FluidTrajectory<D>::list_lasts(double dt) {
+  if (near_.lasts(dt, largest_acceleration())) return true;
+  renew_list(dt);
+  return near_.lasts(dt, largest_acceleration());
+}
+
+template <int D>
+double FluidTrajectory<D>::largest_acceleration() const {
+  return std::sqrt(measure::largest_square<D>(pointers<D>(fluid_.acceleration(), 0), near_.slots()));
+}
+
+template <int D>
+void FluidTrajectory<D>::prepare(const Phase<numbers>& at, double age) {
+  const auto images = near_.images(age);
+  fluid_.evaluate(particles_at(at.columns, images), team_);
+  kinetic_ =
+      measure::kinetic_sums<D>(pointers<D>(at.columns, D), pointers<D>(fluid_.acceleration(), 0), near_.slots(), team_);
+  internal_energy_ = measure::column_sum(at.columns[2 * D], near_.slots());
+  energy_rate_ = 0.0;
+  if constexpr (D > 1) {
+    energy_rate_ = -strain_rate_ * (kinetic_.momentum_flux(0, 1) + fluid_.virial_xy());
+  }
+  chi_ = cooling_ == Cooling::isoenergetic ? energy_rate_ / internal_energy_ : 0.0;
+  energy_rate_ -= chi_ * internal_energy_;
+  for (int d = 0; d < D; ++d) {
+    const double gravity = fluid_.fluid().gravity[d];
+    if (gravity != 0.0) energy_rate_ += gravity * measure::column_sum(at.columns[D + d], near_.slots());
+  }
+}
+
+template <int D>
+void FluidTrajectory<D>::rate(const space::Columns& at, std::size_t begin, std::size_t count,
+                              ChunkRates<columns>& k) const {
+  for (int d = 0; d < D; ++d) {
+    std::copy_n(at[D + d] + begin, count, k[d].begin());
+    std::copy_n(fluid_.acceleration()[d] + begin, count, k[D + d].begin());
+  }
+  const double* const e = at[2 * D] + begin;
+  const double* const rate = fluid_.energy_rate()[0] + begin;
+  for (std::size_t i = 0; i < count; ++i) k[2 * D][i] = std::fma(-chi_, e[i], rate[i]);
+  if constexpr (D > 1) {
+    const double* const y = at[1] + begin;
+    const double* const p_y = at[D + 1] + begin;
+    for (std::size_t i = 0; i < count; ++i) k[0][i] = std::fma(strain_rate_, y[i], k[0][i]);
+    for (std::size_t i = 0; i < count; ++i) k[D][i] = std::fma(-strain_rate_, p_y[i], k[D][i]);
+  }
+}
+
+template <int D>
+bool FluidTrajectory<D>::try_step(double dt) {
+  const double energy_before = energy();
+  const double input_before = now_.numbers[energy_input];
+  runge_kutta_4(*this, now_, near_.age(), dt, near_.slots(), next_, sum_, team_);
+  prepare(next_, near_.age() + dt);
+  last_error_ = std::abs(energy() - energy_before - (next_.numbers[energy_input] - input_before)) /
+                static_cast<double>(particles());
+  if (!(last_error_ <= watch_.energy_tolerance)) {
+    prepare(now_, near_.age());
+    return false;
+  }
+  std::swap(now_, next_);
+  time_ += dt;
+  near_.advance(dt);
+  report_.worst_energy_error = std::max(report_.worst_energy_error, last_error_);
+  return true;
+}
+
+template <int D>
+std::string FluidTrajectory<D>::why_stuck(bool near, double piece) const {
+  const std::string when = fmt::format("at time {:.6g}, even in steps of {:.3g}", time_, piece);
+  if (!near) {
+    return fmt::format(
+        "{}, the fastest particle (speed {:.3g}) outruns its neighbour list: the box is too small for it", when,
+        std::sqrt(kinetic_.largest_square));
+  }
+  return fmt::format(
+      "{}, a step changes the energy by {:.3g} per particle, which is more than run.energy_tolerance = {:.3g}; a "
+      "smaller run.step or a larger tolerance may help",
+      when, last_error_, watch_.energy_tolerance);
+}
+
+template <int D>
+void FluidTrajectory<D>::refuse_cold_particles() const {
+  if (!spam::has_temperature(fluid_.fluid().state)) return;
+  const auto numbers_of_slots = near_.numbers();
+  const double* const temperature = fluid_.temperature()[0];
+  for (std::size_t slot = 0; slot < numbers_of_slots.size(); ++slot) {
+    if (numbers_of_slots[slot] == pairs::nobody || temperature[slot] > 0.0) continue;
+    throw RunFailed(fmt::format(
+        "at time {:.6g} the temperature of particle {} is {:.3g} (density {:.3g}, energy {:.3g}): it was cooled or "
+        "expanded beyond what its equation of state describes; a smaller run.step or a smoother start may help",
+        time_, numbers_of_slots[slot], temperature[slot], fluid_.density()[0][slot], now_.columns[2 * D][slot]));
+  }
+}
+
+template <int D>
+void FluidTrajectory<D>::advance(double dt) {
+  bool near = false;
+  advance_in_pieces(
+      dt, watch_, halvings_, report_,
+      [&](double piece) -> std::optional<double> {
+        near = list_lasts(piece);
+        if (near && try_step(piece)) return last_error_;
+        return std::nullopt;
+      },
+      [&](double piece) { throw RunFailed(why_stuck(near, piece)); });
+  refuse_cold_particles();
+}
+
+template <int D>
+double FluidTrajectory<D>::energy_drift() const {
+  return (energy() - start_energy_ - now_.numbers[energy_input]) / static_cast<double>(particles());
+}
+
+template <int D>
+std::vector<double> FluidTrajectory<D>::by_particle(const space::Columns& from, int first, int count) const {
+  std::vector<double> values(near_.particles() * static_cast<std::size_t>(count));
+  near_.copy_by_particle(from, first, values, count);
+  return values;
+}
+
+template <int D>
+std::vector<double> FluidTrajectory<D>::gradients() const {
+  if (fluid_.gradients().count() == 0) return {};
+  return by_particle(fluid_.gradients(), 0, D * D + D);
+}
+
+template <int D>
+std::vector<double> FluidTrajectory<D>::entropy_production() const {
+  const auto images = near_.images(near_.age());
+  return by_particle(fluid_.entropy_production(particles_at(now_.columns, images), team_), 0, 2);
+}
+
+template <int D>
+void FluidTrajectory<D>::save(ArchiveWriter& archive) const {
+  near_.save(archive);
+  now_.columns.save(archive, near_.slots());
+  fluid_.save(archive, near_.slots());
+  archive.put(now_.numbers);
+  archive.put(time_);
+  archive.put(start_energy_);
+  archive.put(halvings_);
+  kinetic_.save(archive);
+  archive.put(internal_energy_);
+  archive.put(chi_);
+  archive.put(energy_rate_);
+  archive.put(report_);
+}
+
+template <int D>
+void FluidTrajectory<D>::load(ArchiveReader& archive) {
+  near_.load(archive);
+  now_.columns.load(archive, near_.slots());
+  fluid_.load(archive, near_.slots());
+  now_.numbers = archive.get<std::array<double, numbers>>();
+  time_ = archive.get<double>();
+  start_energy_ = archive.get<double>();
+  halvings_ = archive.get<int>();
+  kinetic_.load(archive);
+  internal_energy_ = archive.get<double>();
+  chi_ = archive.get<double>();
+  energy_rate_ = archive.get<double>();
+  report_ = archive.get<WatchReport>();
+}
+
+template class FluidTrajectory<1>;
+template class FluidTrajectory<2>;
+template class FluidTrajectory<3>;
+
+}  // namespace lucy::motion
