@@ -25,9 +25,15 @@ std::vector<BoundKey<Row>> joined(std::vector<BoundKey<Row>> keys, const More&..
   return keys;
 }
 
+/// A member of `Row` that it may have from a base.
+template <class Row, class Owner, class Member>
+Member Row::*member_of(Member Owner::*member) {
+  return member;
+}
+
 /// `particles`: what a list of particle numbers means.
 template <class Row>
-std::vector<BoundKey<Row>> system_keys(Lists particles) {
+std::vector<BoundKey<Row>> particles_key(Lists particles) {
   return {
       {{.section = "system",
         .name = "particles",
@@ -38,7 +44,13 @@ std::vector<BoundKey<Row>> system_keys(Lists particles) {
         .required = true,
         .lists = particles,
         .replaces_rows = true},
-       stored_in(&Row::particles)},
+       stored_in(member_of<Row>(&Row::particles))},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> energy_key() {
+  return {
       {{.section = "system",
         .name = "energy_per_particle",
         .unit = "epsilon",
@@ -48,28 +60,48 @@ std::vector<BoundKey<Row>> system_keys(Lists particles) {
         .required = true,
         .lists = Lists::multiply,
         .replaces_rows = true},
-       stored_in(&Row::energy_per_particle)},
+       stored_in(member_of<Row>(&Row::energy_per_particle))},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> density_keys() {
+  return {
       {{.section = "system",
         .name = "density",
         .unit = "1/sigma^2",
         .meaning = "Number density n, particles per area.",
         .range = Range::above(0)},
-       stored_in(&Row::density)},
+       stored_in(member_of<Row>(&Row::density))},
       {{.section = "system",
         .name = "dimension",
         .type = Type::integer,
         .meaning = "Dimension of space.",
         .range = Range::at_least(2).at_most(2)},
-       stored_in(&Row::dimension)},
+       stored_in(member_of<Row>(&Row::dimension))},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> reading_key() {
+  return {
       {{.section = "system",
         .name = "reading",
         .type = Type::choice,
-        .meaning = "How the pair sum is read: \"md\", the particles are atoms; \"spam\", they are smooth particles of a "
-                   "fluid with P = rho^2/2 (reduced units), whose densities and pressures are computed. Both give the same "
-                   "bits.",
+        .meaning =
+            "How the pair sum is read: \"md\", the particles are atoms; \"spam\", they are smooth particles of a fluid "
+            "with P = rho^2/2 (reduced units), whose densities and pressures are computed. Both give the same bits.",
         .choices = names_of(motion::reading_names)},
-       stored_by_name_in(&Row::reading, motion::reading_names)},
+       stored_by_name_in(member_of<Row>(&Row::reading), motion::reading_names)},
   };
+}
+
+/// `particles`: what a list of particle numbers means. `reading` is a key only where a row has one reading.
+template <class Row>
+std::vector<BoundKey<Row>> system_keys(Lists particles) {
+  auto keys = joined(particles_key<Row>(particles), energy_key<Row>(), density_keys<Row>());
+  if constexpr (requires(Row row) { row.reading; }) keys = joined(keys, reading_key<Row>());
+  return keys;
 }
 
 template <class Row>
@@ -80,13 +112,13 @@ std::vector<BoundKey<Row>> kernel_keys() {
         .type = Type::choice,
         .meaning = "Weight function: \"lucy\", (5/(pi h^2)) (1 + 3r/h)(1 - r/h)^3.",
         .choices = {"lucy"}},
-       stored_in(&Row::kernel)},
+       stored_in(member_of<Row>(&Row::kernel))},
       {{.section = "kernel",
         .name = "range",
         .unit = "sigma",
         .meaning = "Range h, the distance at which the weight function ends. The box must be at least twice as large.",
         .range = Range::above(0)},
-       stored_in(&Row::range)},
+       stored_in(member_of<Row>(&Row::range))},
   };
 }
 
@@ -99,7 +131,7 @@ std::vector<BoundKey<Row>> integration_keys(const std::string& entries_of) {
         .type = Type::choice,
         .meaning = "Classic fourth-order Runge-Kutta, or velocity Verlet (plain Newtonian motion only).",
         .choices = names_of(motion::integrator_names)},
-       stored_by_name_in(&Row::integrator, motion::integrator_names)},
+       stored_by_name_in(member_of<Row>(&Row::integrator), motion::integrator_names)},
       {{.section = "run",
         .name = "step",
         .unit = "time",
@@ -107,7 +139,7 @@ std::vector<BoundKey<Row>> integration_keys(const std::string& entries_of) {
         .range = Range::above(0).at_most(0.2),
         .lists = Lists::one_per_entry,
         .entries_of = entries_of},
-       stored_in(&Row::step)},
+       stored_in(member_of<Row>(&Row::step))},
   };
 }
 
@@ -122,7 +154,7 @@ std::vector<BoundKey<Row>> length_keys(const std::string& equilibration, const s
         .range = Range::at_least(0),
         .lists = Lists::one_per_entry,
         .entries_of = entries_of},
-       stored_in(&Row::equilibration)},
+       stored_in(member_of<Row>(&Row::equilibration))},
       {{.section = "run",
         .name = "duration",
         .unit = "time",
@@ -131,7 +163,7 @@ std::vector<BoundKey<Row>> length_keys(const std::string& equilibration, const s
         .required = true,
         .lists = Lists::one_per_entry,
         .entries_of = entries_of},
-       stored_in(&Row::duration)},
+       stored_in(member_of<Row>(&Row::duration))},
   };
 }
 
@@ -143,13 +175,13 @@ std::vector<BoundKey<Row>> replica_keys() {
         .type = Type::integer,
         .meaning = "Independent runs per row, from different random starts.",
         .range = Range::at_least(1).at_most(10000)},
-       stored_in(&Row::replicas)},
+       stored_in(member_of<Row>(&Row::replicas))},
       {{.section = "run",
         .name = "seed",
         .type = Type::integer,
         .meaning = "Seed of the random numbers; the same seed gives the same bits, with any number of threads.",
         .range = Range::at_least(0)},
-       stored_in(&Row::seed)},
+       stored_in(member_of<Row>(&Row::seed))},
   };
 }
 
@@ -161,7 +193,7 @@ std::vector<BoundKey<Row>> tolerance_keys() {
         .unit = "epsilon",
         .meaning = "Energy error per particle of one step above which the step is repeated in smaller parts.",
         .range = Range::above(0)},
-       stored_in(&Row::energy_tolerance)},
+       stored_in(member_of<Row>(&Row::energy_tolerance))},
   };
 }
 

@@ -53,6 +53,41 @@ std::optional<std::array<std::int64_t, 2>> near_square(std::int64_t particles) {
   return std::nullopt;
 }
 
+void refuse_uneven_lattice(std::int64_t particles) {
+  if (near_square(particles)) return;
+  std::int64_t below = particles - 1;
+  while (below > 1 && !near_square(below)) --below;
+  std::int64_t above = particles + 1;
+  while (!near_square(above)) ++above;
+  throw BadInput(
+      fmt::format("system.particles = {} does not fill a nearly square lattice (sides within a factor of "
+                  "1.5); the nearest numbers that do are {} and {}",
+                  particles, below, above));
+}
+
+std::vector<space::Vector<2>> random_velocities(std::size_t count, double kinetic_energy, std::mt19937_64& generator) {
+  const auto n = static_cast<double>(count);
+  std::normal_distribution<double> normal;
+  std::vector<space::Vector<2>> velocity(count);
+  space::Vector<2> total{};
+  for (auto& v : velocity) {
+    v = {normal(generator), normal(generator)};
+    for (int d = 0; d < 2; ++d) total[d] += v[d];
+  }
+  double kinetic = 0.0;
+  for (auto& v : velocity) {
+    for (int d = 0; d < 2; ++d) {
+      v[d] -= total[d] / n;
+      kinetic += 0.5 * v[d] * v[d];
+    }
+  }
+  const double factor = std::sqrt(kinetic_energy / kinetic);
+  for (auto& v : velocity) {
+    for (double& component : v) component *= factor;
+  }
+  return velocity;
+}
+
 double lattice_energy(const kernel::Lucy<2>& kernel, double density) {
   const double spacing = 1.0 / std::sqrt(density);
   const auto reach = static_cast<int>(kernel.range() / spacing) + 1;
@@ -68,16 +103,7 @@ double lattice_energy(const kernel::Lucy<2>& kernel, double density) {
 
 void refuse_impossible_start(const kernel::Lucy<2>& kernel, std::int64_t particles, double density,
                              double energy_per_particle) {
-  if (!near_square(particles)) {
-    std::int64_t below = particles - 1;
-    while (below > 1 && !near_square(below)) --below;
-    std::int64_t above = particles + 1;
-    while (!near_square(above)) ++above;
-    throw BadInput(
-        fmt::format("system.particles = {} does not fill a nearly square lattice (sides within a factor of "
-                    "1.5); the nearest numbers that do are {} and {}",
-                    particles, below, above));
-  }
+  refuse_uneven_lattice(particles);
   // A start needs some kinetic energy: what would be lost in rounding the lattice's energy for print is too little.
   const double coldest = lattice_energy(kernel, density) * (1.0 + least_excess);
   if (!(energy_per_particle > coldest)) {
@@ -117,24 +143,7 @@ Start<2> lattice_start(const kernel::Lucy<2>& kernel, std::int64_t particles, do
     amplitude /= 2.0;
   } while (energy_per_particle * n - potential < 0.5 * (energy_per_particle - coldest) * n);
 
-  std::normal_distribution<double> normal;
-  start.momentum.resize(count);
-  space::Vector<2> total{};
-  for (auto& p : start.momentum) {
-    p = {normal(generator), normal(generator)};
-    for (int d = 0; d < 2; ++d) total[d] += p[d];
-  }
-  double kinetic = 0.0;
-  for (auto& p : start.momentum) {
-    for (int d = 0; d < 2; ++d) {
-      p[d] -= total[d] / n;
-      kinetic += 0.5 * p[d] * p[d];
-    }
-  }
-  const double factor = std::sqrt((energy_per_particle * n - potential) / kinetic);
-  for (auto& p : start.momentum) {
-    for (double& component : p) component *= factor;
-  }
+  start.momentum = random_velocities(count, energy_per_particle * n - potential, generator);
   return start;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "lucy/kernel/lucy.hpp"
@@ -25,6 +26,13 @@ struct Start {
 /// Columns and rows of the most nearly square lattice of `particles` sites; nothing if its sides differ by more than
 /// a factor of 1.5.
 std::optional<std::array<std::int64_t, 2>> near_square(std::int64_t particles);
+
+/// Throws BadInput, naming system.particles, if there is none.
+void refuse_uneven_lattice(std::int64_t particles);
+
+/// Velocities (or momenta, m = 1) from a normal distribution, of zero total momentum and exactly this kinetic energy in
+/// all.
+std::vector<space::Vector<2>> random_velocities(std::size_t count, double kinetic_energy, std::mt19937_64& generator);
 
 /// Phi/N of the perfect square lattice at number density `density`, no self term. For the Lucy weight with h = 3 at
 /// unit density: 0.41305.
