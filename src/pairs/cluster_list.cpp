@@ -312,12 +312,13 @@ void ClusterList<D>::fill_block(Block& block, const std::array<const double*, D>
     }
     block.cluster_end.push_back(static_cast<std::uint32_t>(block.entries.size()));
   }
+  block.entries.emplace_back(block.first_cluster, ImageSet<D>::index({}));  // the traversal looks one entry ahead
 }
 
 template <int D>
 std::size_t ClusterList<D>::entry_count() const {
   std::size_t count = 0;
-  for (const Block& block : blocks_) count += block.entries.size();
+  for (const Block& block : blocks_) count += block.entries.size() - 1;
   return count;
 }
 

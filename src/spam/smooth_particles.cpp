@@ -40,6 +40,23 @@ void append(std::array<const double*, size>& to, std::size_t begin, const space:
 template <int D>
 constexpr int triangle = D*(D + 1) / 2;
 
+/// Newton's law without P_eq: the viscous stress of the particle at slot i, lower triangle by rows.
+template <int D>
+std::array<double, triangle<D>> viscous_stress(const Transport& transport, const space::Columns& gradients,
+                                               std::size_t i) {
+  double divergence = 0.0;
+  for (int a = 0; a < D; ++a) divergence += gradients[a * D + a][i];
+  const double spherical = (transport.bulk_viscosity - 2.0 / D * transport.viscosity) * divergence;
+  std::array<double, triangle<D>> stress;
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      const double shear = -transport.viscosity * (gradients[a * D + b][i] + gradients[b * D + a][i]);
+      stress[a * (a + 1) / 2 + b] = a == b ? shear - spherical : shear;
+    }
+  }
+  return stress;
+}
+
 }  // namespace
 
 template <int D>
@@ -144,19 +161,17 @@ template <int D>
 void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Team& team) {
   const double* const rho = density_[0];
   const double* const pressure = pressure_[0];
-  const Transport& transport = fluid_.transport;
-  const double spherical = transport.bulk_viscosity - 2.0 / D * transport.viscosity;  // factor of div v
   for_slots(particles.list.slots(), team, [&](std::size_t i) {
     const double square = rho[i] * rho[i];
-    double divergence = 0.0;
-    for (int a = 0; a < D; ++a) divergence += gradients_[a * D + a][i];
+    const double per_square = 1.0 / square;
+    const auto viscous = viscous_stress<D>(fluid_.transport, gradients_, i);
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b <= a; ++b) {
-        double stress = -transport.viscosity * (gradients_[a * D + b][i] + gradients_[b * D + a][i]);
-        if (a == b) stress += pressure[i] - spherical * divergence;
-        stress_[a * (a + 1) / 2 + b][i] = stress / square;
+        const int at = a * (a + 1) / 2 + b;
+        stress_[at][i] = viscous[at] * per_square;
+        if (a == b) stress_[at][i] += pressure[i] / square;  // a division: exactly 1/2 for the isentropic fluid
       }
-      stress_[triangle<D> + a][i] = -transport.conductivity * gradients_[D * D + a][i] / square;
+      stress_[triangle<D> + a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] * per_square;
     }
   });
 }
@@ -210,18 +225,17 @@ space::Columns SmoothParticles<D>::entropy_production(const Particles<D>& partic
   const std::size_t slots = particles.list.slots();
   space::Columns produced(2, density_.slots());
   if (fluid_.transport.none()) return produced;
-  // The viscous part of P/rho^2, and 1/T.
+  // The viscous part of P/rho^2, Q/rho^2 and 1/T, from what is sorted along: stress_ is not.
   space::Columns viscous(triangle<D>, density_.slots());
+  space::Columns flux(D, density_.slots());
   space::Columns coldness(1, density_.slots());
   for (std::size_t i = 0; i < slots; ++i) {
-    for (int a = 0; a < D; ++a) {
-      for (int b = 0; b <= a; ++b) {
-        const int at = a * (a + 1) / 2 + b;
-        const double rho = density_[0][i];
-        viscous[at][i] = stress_[at][i] - (a == b ? pressure_[0][i] / (rho * rho) : 0.0);
-      }
-    }
-    coldness[0][i] = particles.number[i] == pairs::nobody ? 0.0 : 1.0 / temperature_[0][i];
+    if (particles.number[i] == pairs::nobody) continue;
+    const double square = density_[0][i] * density_[0][i];
+    const auto stress = viscous_stress<D>(fluid_.transport, gradients_, i);
+    for (int c = 0; c < triangle<D>; ++c) viscous[c][i] = stress[c] / square;
+    for (int a = 0; a < D; ++a) flux[a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] / square;
+    coldness[0][i] = 1.0 / temperature_[0][i];
   }
   std::visit(
       [&]<class Kernel>(const Kernel& kernel) {
@@ -230,7 +244,7 @@ space::Columns SmoothParticles<D>::entropy_production(const Particles<D>& partic
         columns.position = particles.position;
         std::copy_n(particles.velocity.begin(), D, columns.carried.begin());
         append(columns.carried, D, viscous, 0, triangle<D>);
-        append(columns.carried, D + triangle<D>, stress_, triangle<D>, D);
+        append(columns.carried, D + triangle<D>, flux, 0, D);
         append(columns.carried, D + triangle<D> + D, coldness, 0, 1);
         columns.given = {produced[0], produced[1]};
         pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns,

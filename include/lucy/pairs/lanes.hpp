@@ -5,6 +5,8 @@
 // additions does not depend on the width of the hardware's registers.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <experimental/simd>
 #include <type_traits>
@@ -34,6 +36,38 @@ template <int count, class Body>
     unrolled<count - 1>(body);
     body(std::integral_constant<int, count - 1>{});
   }
+}
+
+namespace detail {
+
+using Vector [[gnu::vector_size(lane_count * sizeof(double))]] = double;
+
+/// Chosen lanes of a (0 to 7) and b (8 to 15).
+template <int... chosen>
+Vector shuffled(const Vector& a, const Vector& b) {
+  return __builtin_shufflevector(a, b, chosen...);
+}
+
+}  // namespace detail
+
+/// Lane l of the result is the sum over the lanes of rows[l], each as ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
+inline Lanes sums_of_rows(const std::array<Lanes, lane_count>& rows) {
+  using detail::shuffled, detail::Vector;
+  std::array<Vector, 4> halves;  // of row r in lanes 0 to 3, of row r + 4 beyond
+  unrolled<4>([&](auto r) {
+    const auto a = std::bit_cast<Vector>(rows[r]);
+    const auto b = std::bit_cast<Vector>(rows[r + 4]);
+    halves[r] = shuffled<0, 1, 2, 3, 8, 9, 10, 11>(a, b) + shuffled<4, 5, 6, 7, 12, 13, 14, 15>(a, b);
+  });
+  std::array<Vector, 2> quarters;
+  unrolled<2>([&](auto r) {
+    const Vector& a = halves[r];
+    const Vector& b = halves[r + 2];
+    quarters[r] = shuffled<0, 1, 8, 9, 4, 5, 12, 13>(a, b) + shuffled<2, 3, 10, 11, 6, 7, 14, 15>(a, b);
+  });
+  const auto& [a, b] = quarters;
+  return std::bit_cast<Lanes>(
+      Vector(shuffled<0, 8, 2, 10, 4, 12, 6, 14>(a, b) + shuffled<1, 9, 3, 11, 5, 13, 7, 15>(a, b)));
 }
 
 }  // namespace lucy::pairs

@@ -69,13 +69,13 @@ struct PairForce {
   kernel::Lucy<D> kernel;
   Coefficient coefficient{};
 
-  void operator()(const Pair<D, carried>& pair, std::array<Lanes, given>& to_i, std::array<Lanes, given>& to_j,
-                  std::array<Lanes, totals>& sums) const {
+  [[gnu::always_inline]] void operator()(const Pair<D, carried>& pair, std::array<Lanes, given>& to_i,
+                                         std::array<Lanes, given>& to_j, std::array<Lanes, totals>& sums) const {
     const Lanes slope = coefficient(pair) * kernel.slope(pair.distance);
-    for (int d = 0; d < D; ++d) {
+    unrolled<D>([&](auto d) {
       to_i[d] = slope * pair.displacement[d];
       to_j[d] = -to_i[d];
-    }
+    });
     if constexpr (wanted != Wanted::shear_stress) {
       unrolled<D>([&](auto a) {
         unrolled<a + 1>([&](auto b) {

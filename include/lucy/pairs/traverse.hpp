@@ -23,6 +23,7 @@
 // empty slot, the particle itself) are presented with distance == range.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -58,100 +59,134 @@ namespace detail {
 template <class Sum>
 using Given = std::array<Lanes, Sum::given>;
 
-template <int D, int carried>
-[[gnu::always_inline]] inline Lanes squared_distance(const Pair<D, carried>& pair) {
-  Lanes squared = pair.displacement[0] * pair.displacement[0];
-  for (int d = 1; d < D; ++d) squared = fma(pair.displacement[d], pair.displacement[d], squared);
+template <std::size_t D>
+[[gnu::always_inline]] inline Lanes squared_length(const std::array<Lanes, D>& displacement) {
+  Lanes squared = displacement[0] * displacement[0];
+  unrolled<static_cast<int>(D) - 1>([&](auto d) { squared = fma(displacement[d + 1], displacement[d + 1], squared); });
   return squared;
 }
 
-/// The pairs of particle `slot` with the eight of `cluster`, an image of which is shifted by `shift`.
+/// Displacements and distances of a particle from the eight of a cluster: what has to be known before the sum can
+/// begin.
+template <int D>
+struct Apart {
+  std::array<Lanes, D> displacement;
+  Lanes distance;
+};
+
 template <int D, class Sum>
-[[gnu::always_inline]] inline void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum,
-                                                     const Lanes& range_squared, std::size_t slot, std::size_t cluster,
+[[gnu::always_inline]] inline Apart<D> measure(const Pass<D, Sum>& pass, const Lanes& range_squared, std::size_t slot,
+                                               std::size_t cluster, const space::ImageShift<D>& shift) {
+  const std::size_t at = cluster * lane_count;
+  Apart<D> apart;
+  unrolled<D>([&](auto d) {
+    apart.displacement[d] = (pass.position[d][slot] - shift.position[d]) - load(pass.position[d] + at);
+  });
+  apart.distance = sqrt(simd::min(squared_length(apart.displacement), range_squared));
+  return apart;
+}
+
+/// The sum over the pairs of particle `slot` with the eight of `cluster`, an image of which is shifted by `shift`.
+template <int D, class Sum>
+[[gnu::always_inline]] inline void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Apart<D>& apart,
+                                                     const std::array<Lanes, Sum::carried>& of_i, std::size_t cluster,
                                                      const space::ImageShift<D>& shift, Given<Sum>& at_i,
                                                      std::array<Lanes, Sum::totals>& totals) {
   const std::size_t at = cluster * lane_count;
   Pair<D, Sum::carried> pair;
-  for (int d = 0; d < D; ++d) {
-    pair.displacement[d] = (pass.position[d][slot] - shift.position[d]) - load(pass.position[d] + at);
-  }
-  for (int c = 0; c < Sum::carried; ++c) {
-    double mine = pass.carried[c][slot];
-    if constexpr (Sum::lab_velocity >= 0) {
-      if (c >= Sum::lab_velocity && c < Sum::lab_velocity + D) mine -= shift.velocity[c - Sum::lab_velocity];
-    }
-    pair.of_i[c] = mine;
+  pair.displacement = apart.displacement;
+  pair.distance = apart.distance;
+  unrolled<Sum::carried>([&](auto c) {
+    pair.of_i[c] = of_i[c];
+    if constexpr (Sum::lab_velocity >= 0 && c >= Sum::lab_velocity && c < Sum::lab_velocity + D)
+      pair.of_i[c] -= shift.velocity[c - Sum::lab_velocity];
     pair.of_j[c] = load(pass.carried[c] + at);
-  }
-  pair.distance = sqrt(simd::min(squared_distance(pair), range_squared));
+  });
   Given<Sum> to_i;
   Given<Sum> to_j;
   sum(pair, to_i, to_j, totals);
-  for (int c = 0; c < Sum::given; ++c) {
+  unrolled<Sum::given>([&](auto c) {
     at_i[c] += to_i[c];
     double* target = pass.given[c] + at;
     store(target, load(target) + to_j[c]);
-  }
+  });
 }
 
 /// The pairs of a cluster's own eight that are `turn` lanes apart: lane l with lane l + turn, each pair once.
 template <int turn, int D, class Sum>
 [[gnu::always_inline]] inline void pair_within_cluster(const Pass<D, Sum>& pass, const Sum& sum,
-                                                       const Lanes& range_squared, std::size_t cluster,
-                                                       std::array<Lanes, Sum::totals>& totals) {
+                                                       const Lanes& range_squared, const Lanes& once,
+                                                       std::size_t cluster, std::array<Lanes, Sum::totals>& totals) {
   const std::size_t at = cluster * lane_count;
   Pair<D, Sum::carried> pair;
-  for (int d = 0; d < D; ++d) {
+  unrolled<D>([&](auto d) {
     const Lanes mine = load(pass.position[d] + at);
     pair.displacement[d] = mine - rotate<turn>(mine);
-  }
-  for (int c = 0; c < Sum::carried; ++c) {
+  });
+  unrolled<Sum::carried>([&](auto c) {
     pair.of_i[c] = load(pass.carried[c] + at);
     pair.of_j[c] = rotate<turn>(pair.of_i[c]);
-  }
-  Lanes squared = squared_distance(pair);
-  if constexpr (turn == lane_count / 2) {  // lanes l and l + 4 meet twice
-    const Lanes lane_numbers([](auto lane) { return static_cast<double>(static_cast<int>(lane)); });
-    simd::where(lane_numbers >= static_cast<double>(turn), squared) = range_squared;
-  }
+  });
+  Lanes squared = squared_length(pair.displacement);
+  if constexpr (turn == lane_count / 2) squared = simd::max(squared, once);  // lanes l and l + 4 meet twice
   pair.distance = sqrt(simd::min(squared, range_squared));
   Given<Sum> to_i;
   Given<Sum> to_j;
   sum(pair, to_i, to_j, totals);
-  for (int c = 0; c < Sum::given; ++c) {
+  unrolled<Sum::given>([&](auto c) {
     double* target = pass.given[c] + at;
     store(target, load(target) + (to_i[c] + rotate<lane_count - turn>(to_j[c])));
-  }
+  });
 }
 
 template <int D, class Sum>
-Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const ImageTable<D>& images, double range,
-                           const Pass<D, Sum> pass, const Sum sum) {
+[[gnu::flatten]] Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const ImageTable<D>& images,
+                                            double range, const Pass<D, Sum> pass, const Sum sum) {
   const Lanes range_squared = range * range;
+  std::array<double, lane_count> upper_half{};  // range squared in lanes 4 to 7
+  std::fill(upper_half.begin() + lane_count / 2, upper_half.end(), range * range);
+  const Lanes once(upper_half.data(), simd::element_aligned);
   std::array<Lanes, Sum::totals> totals;
   unrolled<Sum::totals>([&](auto c) { totals[c] = 0.0; });
-  // One loop over the rows of a whole cluster, without branches on where a row ends: what a row gives to its particle
-  // is gathered in memory, lane by lane, and added up across lanes once per cluster.
-  std::array<Given<Sum>, lane_count> at_i;
+  // What a row gives to its particle stays in registers to the row's end, and is added up across lanes once per
+  // cluster.
+  std::array<std::array<Lanes, lane_count>, Sum::given> at_i;  // one row per particle of the cluster
   const space::ImageShift<D>* const shifts = images.data();
   const RowEntry* entry = block.entries.data();
   const std::uint32_t* cluster_end = block.cluster_end.data();
   for (std::size_t cluster = block.first_cluster; cluster < block.last_cluster; ++cluster, ++cluster_end) {
     const std::size_t first = cluster * lane_count;
-    pair_within_cluster<1>(pass, sum, range_squared, cluster, totals);
-    pair_within_cluster<2>(pass, sum, range_squared, cluster, totals);
-    pair_within_cluster<3>(pass, sum, range_squared, cluster, totals);
-    pair_within_cluster<4>(pass, sum, range_squared, cluster, totals);
-    for (auto& lane : at_i) lane.fill(0.0);
-    for (const RowEntry* const end = block.entries.data() + *cluster_end; entry != end; ++entry) {
-      pair_with_cluster(pass, sum, range_squared, first + entry->lane(), entry->cluster(), shifts[entry->image()],
-                        at_i[entry->lane()], totals);
+    // Distances are known one entry ahead of their use, so that the root's long latency is hidden. The entry after the
+    // last of the cluster is measured in vain.
+    const auto look = [&](const RowEntry& e) {
+      return measure(pass, range_squared, first + e.lane(), e.cluster(), shifts[e.image()]);
+    };
+    Apart<D> ahead = look(*entry);
+    pair_within_cluster<1>(pass, sum, range_squared, once, cluster, totals);
+    pair_within_cluster<2>(pass, sum, range_squared, once, cluster, totals);
+    pair_within_cluster<3>(pass, sum, range_squared, once, cluster, totals);
+    pair_within_cluster<4>(pass, sum, range_squared, once, cluster, totals);
+    for (auto& rows : at_i) rows.fill(0.0);
+    const RowEntry* const end = block.entries.data() + *cluster_end;
+    while (entry != end) {
+      const std::size_t lane = entry->lane();
+      std::array<Lanes, Sum::carried> of_i;
+      unrolled<Sum::carried>([&](auto c) { of_i[c] = pass.carried[c][first + lane]; });
+      Given<Sum> given;
+      unrolled<Sum::given>([&](auto c) { given[c] = 0.0; });
+      do {
+        const Apart<D> apart = ahead;
+        const RowEntry now = *entry;
+        ++entry;
+        ahead = look(*entry);
+        pair_with_cluster(pass, sum, apart, of_i, now.cluster(), shifts[now.image()], given, totals);
+      } while (entry != end && entry->lane() == lane);
+      unrolled<Sum::given>([&](auto c) { at_i[c][lane] = given[c]; });
     }
-    for (int c = 0; c < Sum::given; ++c) {
-      double* target = pass.given[c] + first;
-      for (int lane = 0; lane < lane_count; ++lane) target[lane] += simd::reduce(at_i[lane][c]);
-    }
+    unrolled<Sum::given>([&](auto c) {
+      double* const target = pass.given[c] + first;
+      store(target, load(target) + sums_of_rows(at_i[c]));
+    });
   }
   Totals<Sum> result{};
   unrolled<Sum::totals>([&](auto c) { result[c] = simd::reduce(totals[c]); });

@@ -4,13 +4,12 @@
 // Equations of state, one small type each, in reduced units (m = k = 1): pressure and temperature of density rho and
 // internal energy per mass e, and the energy at a temperature. In two dimensions a pressure is force per length.
 //
-//     isentropic      P = (P0/2) (rho/rho0)^2     a two-dimensional ideal gas at constant entropy, e = P0 rho/(2
-//     rho0^2)
-//                                                 where it starts; P needs no e, and there is no temperature
+//     isentropic      P = (P0/2) (rho/rho0)^2     a two-dimensional ideal gas at constant entropy, where it starts with
+//                                                 e = P0 rho/(2 rho0^2); P needs no e, and there is no temperature
 //     ideal gas       P = rho e                   e = kT
 //     van der Waals   P = rho kT/(1 - b rho) - a rho^2     e = kT - a rho, a = b = 1/2
-//     dense fluid     fitted to molecular dynamics near rho = 1, kT = 1; with dn = rho - 1, du = e - 1.443, dT = kT -
-//     1:
+//     dense fluid     fitted to molecular dynamics near rho = 1, kT = 1, with dn = rho - 1, du = e - 1.443 and
+//                     dT = kT - 1:
 //                     P/rho = 5 + 8 dn + 2.5 du + 9 dn^2 + 2 dn du
 //                     kT    = 1 - dn + 0.7 du - 0.8 dn^2 - 0.5 dn du
 //                     e     = 1.443 + 1.5 dn + 1.5 dT + 2.4 dn^2 + 1.2 dn dT
@@ -24,6 +23,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -80,8 +80,9 @@ class VanDerWaals {
  public:
   static constexpr bool has_temperature = true;
   static constexpr bool has_entropy = true;
-  static constexpr double attraction = 0.5;  ///< a
-  static constexpr double excluded = 0.5;    ///< b
+  static constexpr double attraction = 0.5;          ///< a
+  static constexpr double excluded = 0.5;            ///< b
+  static constexpr double densest = 1.0 / excluded;  ///< where the pressure diverges, to turn negative beyond
 
   double pressure(double density, double energy) const {
     return density * temperature(density, energy) / (1.0 - excluded * density) - attraction * density * density;
@@ -145,6 +146,11 @@ inline EquationOfState make_equation_of_state(EquationOfStateName name) {
 
 inline bool has_temperature(const EquationOfState& state) {
   return std::visit([](const auto& s) { return s.has_temperature; }, state);
+}
+
+/// The density that a fluid cannot reach: infinite but for van der Waals' particles of finite size.
+inline double densest(const EquationOfState& state) {
+  return std::holds_alternative<VanDerWaals>(state) ? VanDerWaals::densest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace lucy::spam

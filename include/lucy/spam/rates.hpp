@@ -43,49 +43,47 @@ struct RateSum {
   Kernel kernel;
   double strain_rate = 0.0;
 
-  void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
-                  std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, totals>& sums) const {
+  [[gnu::always_inline]] void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
+                                         std::array<pairs::Lanes, given>& to_j,
+                                         std::array<pairs::Lanes, totals>& sums) const {
     const pairs::Lanes slope = kernel.slope(pair.distance);
+    std::array<pairs::Lanes, D> along;  // -grad_i w
+    pairs::unrolled<D>([&](auto b) { along[b] = slope * pair.displacement[b]; });
     std::array<pairs::Lanes, D> force;
     if constexpr (contents == Carried::scalar_pressure) {
-      const pairs::Lanes coefficient = (pair.of_i[D] + pair.of_j[D]) * slope;
-      for (int a = 0; a < D; ++a) force[a] = coefficient * pair.displacement[a];
+      const pairs::Lanes coefficient = pair.of_i[D] + pair.of_j[D];
+      pairs::unrolled<D>([&](auto a) { force[a] = coefficient * along[a]; });
     } else {
       std::array<pairs::Lanes, stresses> stress;
-      for (int s = 0; s < stresses; ++s) stress[s] = (pair.of_i[D + s] + pair.of_j[D + s]) * slope;
-      for (int a = 0; a < D; ++a) {
-        force[a] = component(stress, a, 0) * pair.displacement[0];
-        for (int b = 1; b < D; ++b) force[a] = fma(component(stress, a, b), pair.displacement[b], force[a]);
-      }
+      pairs::unrolled<stresses>([&](auto s) { stress[s] = pair.of_i[D + s] + pair.of_j[D + s]; });
+      pairs::unrolled<D>([&](auto a) {
+        force[a] = stress[component(a, 0)] * along[0];
+        pairs::unrolled<D - 1>([&](auto b) { force[a] = fma(stress[component(a, b + 1)], along[b + 1], force[a]); });
+      });
     }
     pairs::Lanes power = 0.0;  // f_ij . (v_i - v_j)
-    for (int a = 0; a < D; ++a) {
+    pairs::unrolled<D>([&](auto a) {
       pairs::Lanes difference = pair.of_i[a] - pair.of_j[a];
-      if constexpr (D > 1) {
-        if (a == 0) difference = fma(strain_rate, pair.displacement[1], difference);
-      }
+      if constexpr (D > 1 && a == 0) difference = fma(strain_rate, pair.displacement[1], difference);
       power = fma(force[a], difference, power);
       to_i[a] = force[a];
       to_j[a] = -force[a];
-    }
-    to_i[D] = to_j[D] = -0.5 * power;
+    });
     if constexpr (fluxes > 0) {
       pairs::Lanes heat = 0.0;  // from j to i
-      for (int b = 0; b < D; ++b) {
-        const pairs::Lanes flux = pair.of_i[D + stresses + b] + pair.of_j[D + stresses + b];
-        heat = fma(flux, pair.displacement[b], heat);
-      }
-      heat *= slope;
-      to_i[D] += heat;
-      to_j[D] -= heat;
+      pairs::unrolled<D>(
+          [&](auto b) { heat = fma(pair.of_i[D + stresses + b] + pair.of_j[D + stresses + b], along[b], heat); });
+      to_i[D] = fma(-0.5, power, heat);
+      to_j[D] = fma(-0.5, power, -heat);
+    } else {
+      to_i[D] = to_j[D] = -0.5 * power;
     }
     if constexpr (D > 1) sums[0] = fma(force[0], pair.displacement[1], sums[0]);
   }
 
  private:
-  static const pairs::Lanes& component(const std::array<pairs::Lanes, stresses>& tensor, int a, int b) {
-    return a >= b ? tensor[a * (a + 1) / 2 + b] : tensor[b * (b + 1) / 2 + a];
-  }
+  /// Where the component ab of a symmetric tensor stands in its lower triangle.
+  static constexpr int component(int a, int b) { return a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a; }
 };
 
 }  // namespace lucy::spam

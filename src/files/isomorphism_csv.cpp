@@ -1,0 +1,164 @@
+// Lucy: smooth-particle and molecular dynamics on one set of kernels.
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lucy/files/isomorphism_csv.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "lucy/errors.hpp"
+#include "lucy/files/atomic_file.hpp"
+#include "lucy/files/csv.hpp"
+#include "row_cells.hpp"
+
+namespace lucy::files {
+
+namespace {
+
+using cases::Difference;
+using cases::IsomorphismRow;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view no_component = "none";
+
+/// The settings that hold one real number each, in front of the thermostat and behind it.
+constexpr std::array<std::pair<std::string_view, double IsomorphismRow::*>, 4> state_settings = {{
+    {"energy_per_particle", &IsomorphismRow::energy_per_particle},
+    {"density", &IsomorphismRow::density},
+    {"range", &IsomorphismRow::range},
+    {"strain_rate", &IsomorphismRow::strain_rate},
+}};
+constexpr std::array<std::pair<std::string_view, double IsomorphismRow::*>, 4> other_settings = {{
+    {"isentropic_pressure", &IsomorphismRow::pressure},
+    {"isentropic_reference_density", &IsomorphismRow::reference_density},
+    {"step", &IsomorphismRow::step},
+    {"duration", &IsomorphismRow::duration},
+}};
+
+void add_difference(CsvLine& line, const IsomorphismRow& row) {
+  if (!row.difference) {
+    for (int i = 0; i < 4; ++i) line.add(not_a_number);
+    line.add(no_component);
+    for (int i = 0; i < 2; ++i) line.add(not_a_number);
+    return;
+  }
+  const Difference& difference = *row.difference;
+  line.add(static_cast<std::int64_t>(row.differing_replica));
+  line.add(difference.step);
+  line.add(difference.time);
+  if (difference.particle >= 0) {
+    line.add(difference.particle);
+  } else {
+    line.add(not_a_number);
+  }
+  line.add(difference.component_name());
+  line.add(difference.atoms);
+  line.add(difference.smooth);
+}
+
+std::optional<Difference> read_difference(const CsvFile& file, const CsvFile::Row& line) {
+  const std::string& name = line.cells[file.column("difference_component")];
+  if (name == no_component) return std::nullopt;
+  const RowCells cells(file, line);
+  Difference difference;
+  difference.step = cells.integer("difference_step");
+  difference.time = cells.number("difference_time");
+  difference.atoms = cells.number("difference_atoms");
+  difference.smooth = cells.number("difference_smooth");
+  const auto place_in = [&](const auto& names) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      throw BadInput(fmt::format("{}:{}: difference_component is \"{}\" where one of {}, {} or {} was expected",
+                                 file.path(), line.line, name, fmt::join(cases::compared_coordinates, ", "),
+                                 fmt::join(cases::compared_sums, ", "), no_component));
+    return static_cast<int>(found - names.begin());
+  };
+  if (std::isnan(cells.number("difference_particle"))) {
+    difference.component = place_in(cases::compared_sums);
+  } else {
+    difference.particle = cells.integer("difference_particle");
+    difference.component = place_in(cases::compared_coordinates);
+  }
+  return difference;
+}
+
+}  // namespace
+
+std::vector<std::string> isomorphism_columns() {
+  std::vector<std::string> columns = {"particles"};
+  for (const auto& [name, member] : state_settings) columns.emplace_back(name);
+  columns.emplace_back("thermostat");
+  for (const auto& [name, member] : other_settings) columns.emplace_back(name);
+  for (const auto* name :
+       {"replicas", "steps", "comparisons", "identical", "difference_replica", "difference_step", "difference_time",
+        "difference_particle", "difference_component", "difference_atoms", "difference_smooth"})
+    columns.emplace_back(name);
+  for (const auto name : cases::isomorphism_quantities) {
+    columns.emplace_back(name);
+    columns.push_back(fmt::format("{}_error", name));
+  }
+  for (const auto* name : {"equilibration_discarded", "worst_energy_error", "subdivided_steps", "status"})
+    columns.emplace_back(name);
+  return columns;
+}
+
+void write_isomorphism_csv(const std::filesystem::path& path, std::span<const IsomorphismRow> rows) {
+  std::string text = fmt::format("{}\n", fmt::join(isomorphism_columns(), ","));
+  CsvLine line;
+  for (const IsomorphismRow& row : rows) {
+    line.add(row.particles);
+    for (const auto& [name, member] : state_settings) line.add(row.*member);
+    line.add(std::string_view(row.thermostat));
+    for (const auto& [name, member] : other_settings) line.add(row.*member);
+    line.add(static_cast<std::int64_t>(row.replicas));
+    line.add(row.steps);
+    line.add(row.comparisons);
+    line.add(row.identical());
+    add_difference(line, row);
+    for (const auto& estimate : row.estimates) {
+      line.add(estimate.value);
+      line.add(estimate.error);
+    }
+    line.add(row.equilibration_discarded);
+    line.add(row.worst_energy_error);
+    line.add(row.subdivided_steps);
+    line.add(cases::status_name(row.status));
+    text += line.end();
+  }
+  write_file_atomically(path, text);
+}
+
+std::vector<IsomorphismRow> read_isomorphism_csv(const std::filesystem::path& path) {
+  const CsvFile file(path);
+  require_columns(file, isomorphism_columns(), "isomorphism.csv");
+  std::vector<IsomorphismRow> rows;
+  for (const auto& line : file.rows()) {
+    const RowCells cells(file, line);
+    IsomorphismRow row;
+    row.particles = cells.integer("particles");
+    for (const auto& [name, member] : state_settings) row.*member = cells.number(name);
+    row.thermostat = line.cells[file.column("thermostat")];
+    for (const auto& [name, member] : other_settings) row.*member = cells.number(name);
+    row.replicas = cells.count("replicas");
+    row.steps = cells.integer("steps");
+    row.comparisons = cells.integer("comparisons");
+    row.difference = read_difference(file, line);
+    if (row.difference) row.differing_replica = cells.count("difference_replica");
+    for (std::size_t i = 0; i < row.estimates.size(); ++i)
+      row.estimates[i] = cells.estimate(cases::isomorphism_quantities[i]);
+    row.equilibration_discarded = cells.number("equilibration_discarded");
+    row.worst_energy_error = cells.number("worst_energy_error");
+    row.subdivided_steps = cells.integer("subdivided_steps");
+    row.status = cells.status();
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace lucy::files
