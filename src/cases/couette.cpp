@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "cases/refusals.hpp"
+#include "cases/seeds.hpp"
 #include "lucy/errors.hpp"
 #include "lucy/motion/trajectory.hpp"
 
@@ -18,16 +19,7 @@ namespace {
 constexpr double default_sample_interval = 0.5;
 constexpr double most_samples = 20000.0;
 constexpr double fewest_samples = 10.0;
-constexpr double most_steps = 4e15;  // counted exactly by a double; no machine lives for so many
 constexpr std::int64_t most_steps_per_sample = 1'000'000'000;
-
-// Scrambles 64 bits (the finaliser of SplitMix64, Steele, Lea and Flood, 2014).
-std::uint64_t scramble(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
 
 std::int64_t steps_in(double time, double step) { return std::llround(time / step); }
 
@@ -40,13 +32,8 @@ double kinetic_energy(const motion::Start<2>& start) {
 }  // namespace
 
 std::uint64_t replica_seed(const CouettePoint& point, int replica) {
-  std::uint64_t seed = scramble(point.seed);
-  for (const std::uint64_t part :
-       {static_cast<std::uint64_t>(replica), static_cast<std::uint64_t>(point.particles),
-        std::bit_cast<std::uint64_t>(point.energy_per_particle), std::bit_cast<std::uint64_t>(point.strain_rate)}) {
-    seed = scramble(seed ^ part);
-  }
-  return seed;
+  return mixed_seed(point.seed, {static_cast<std::uint64_t>(replica), static_cast<std::uint64_t>(point.particles),
+                                 bits(point.energy_per_particle), bits(point.strain_rate)});
 }
 
 int sample_steps(const CouettePoint& point) {
@@ -67,33 +54,21 @@ int sample_steps(const CouettePoint& point) {
 }
 
 void validate(const CouettePoint& point) {
-  const auto refuse = [](const std::string& message) { throw BadInput(message); };
   if (point.dimension != 2) refuse(fmt::format("system.dimension = {} must be 2", point.dimension));
   if (point.kernel != "lucy") refuse(fmt::format("kernel.name = \"{}\" must be \"lucy\"", point.kernel));
   if (!(point.step > 0.0 && point.step <= 0.2)) {
     refuse(fmt::format("run.step = {} must be above 0 and at most 0.2", point.step));
   }
-  const auto above_zero = [&](const char* key, double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) refuse(fmt::format("{} = {} must be above 0", key, value));
-  };
-  above_zero("run.duration", point.duration);
-  above_zero("system.density", point.density);
-  above_zero("kernel.range", point.range);
-  above_zero("run.energy_tolerance", point.energy_tolerance);
-  above_zero("shear.relaxation_time", point.relaxation_time);
-  if (point.kinetic_temperature) above_zero("system.kinetic_temperature", *point.kinetic_temperature);
+  refuse_unless_above_zero("run.duration", point.duration);
+  refuse_unless_above_zero("system.density", point.density);
+  refuse_unless_above_zero("kernel.range", point.range);
+  refuse_unless_above_zero("run.energy_tolerance", point.energy_tolerance);
+  refuse_unless_above_zero("shear.relaxation_time", point.relaxation_time);
+  if (point.kinetic_temperature) refuse_unless_above_zero("system.kinetic_temperature", *point.kinetic_temperature);
   if (!std::isfinite(point.strain_rate))
     refuse(fmt::format("shear.strain_rate = {} must be finite", point.strain_rate));
-  if (!(point.equilibration >= 0.0) || !std::isfinite(point.equilibration)) {
-    refuse(fmt::format("run.equilibration = {} must be 0 or above", point.equilibration));
-  }
-  const double steps = (point.equilibration + point.duration) / point.step;
-  if (!(steps <= most_steps)) {
-    refuse(
-        fmt::format("run.duration = {} and run.equilibration = {} make {} steps of run.step = {}; at most {} are "
-                    "possible",
-                    point.duration, point.equilibration, steps, point.step, most_steps));
-  }
+  refuse_unless_at_least_zero("run.equilibration", point.equilibration);
+  refuse_endless_run(point.equilibration, point.duration, point.step);
   if (point.particles < 4 || point.particles > 100'000'000) {
     refuse(fmt::format("system.particles = {} must be between 4 and 100000000", point.particles));
   }
@@ -116,31 +91,8 @@ void validate(const CouettePoint& point) {
         "run.integrator = \"velocity-verlet\" needs shear.strain_rate = 0 and thermostat \"none\" or "
         "\"isoenergetic\" (plain Newtonian motion); use \"rk4\"");
   }
-  if (std::abs(point.strain_rate) * point.step > 0.5) {
-    refuse(fmt::format("run.step = {} at shear.strain_rate = {} strains the box by more than 0.5 in one step",
-                       point.step, point.strain_rate));
-  }
-  const auto whole_steps = [&](const char* key, double interval) {
-    const double steps = interval / point.step;
-    if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6 * steps) {
-      refuse(fmt::format("{} = {} must be a whole number of steps of run.step = {}", key, interval, point.step));
-    }
-  };
-  if (point.sample_interval > 0.0) {
-    whole_steps("output.sample_interval", point.sample_interval);
-    if (point.sample_interval > point.duration) {
-      refuse(fmt::format("output.sample_interval = {} must be at most run.duration = {}", point.sample_interval,
-                         point.duration));
-    }
-  }
-  if (point.frame_interval > 0.0) {
-    whole_steps("output.frame_interval", point.frame_interval);
-    if (point.sample_interval > 0.0 &&
-        steps_in(point.frame_interval, point.step) % steps_in(point.sample_interval, point.step) != 0) {
-      refuse(fmt::format("output.frame_interval = {} must be a multiple of output.sample_interval = {}",
-                         point.frame_interval, point.sample_interval));
-    }
-  }
+  refuse_large_strain(point.strain_rate, point.step);
+  refuse_uneven_intervals(point.sample_interval, point.frame_interval, point.step, point.duration);
 }
 
 struct CouetteRun::Implementation {

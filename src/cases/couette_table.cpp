@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lucy/statistics/equilibration.hpp"
+#include "cases/recorded_series.hpp"
 
 namespace lucy::cases {
 
@@ -36,41 +36,9 @@ double stress_difference(const Sample& sample) {
 
 double potential_energy(const Sample& sample) { return sample[observable("potential_energy")]; }
 
-using Series = std::vector<std::vector<double>>;
-
-/// What `of` makes of each sample after the cuts, one series per replica.
-template <class Quantity>
-Series series_of(std::span<const CouetteRecord> replicas, std::span<const std::size_t> cuts, Quantity of) {
-  Series series(replicas.size());
-  for (std::size_t r = 0; r < replicas.size(); ++r) {
-    const std::span<const Sample> kept = std::span(replicas[r].samples).subspan(cuts[r]);
-    series[r].reserve(kept.size());
-    for (const Sample& sample : kept) series[r].push_back(of(sample));
-  }
-  return series;
-}
-
-std::vector<double> average(const Series& series) {
-  std::vector<double> mean(series.front().size(), 0.0);
-  for (const std::vector<double>& replica : series)
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += replica[i] / static_cast<double>(series.size());
-  return mean;
-}
-
-/// Samples to drop from each replica, by the rule in the header.
-std::vector<std::size_t> equilibration_cuts(std::span<const CouetteRecord> replicas) {
-  std::vector<std::size_t> cuts(replicas.size(), 0);
-  const bool equally_long = std::all_of(replicas.begin(), replicas.end(), [&](const CouetteRecord& record) {
-    return record.samples.size() == replicas.front().samples.size();
-  });
-  const std::vector<std::size_t> all_samples(replicas.size(), 0);
-  for (const auto key : {shear_stress, stress_difference, potential_energy}) {
-    const Series series = series_of(replicas, all_samples, key);
-    const std::size_t common = replicas.size() > 1 && equally_long ? statistics::equilibration_cut(average(series)) : 0;
-    for (std::size_t r = 0; r < replicas.size(); ++r)
-      cuts[r] = std::max({cuts[r], common, statistics::equilibration_cut(series[r])});
-  }
-  return cuts;
+/// By the rule in the header.
+std::vector<std::size_t> cuts_of(std::span<const CouetteRecord> replicas) {
+  return equilibration_cuts(replicas, shear_stress, stress_difference, potential_energy);
 }
 
 Series viscosity_series(double strain_rate, std::span<const CouetteRecord> replicas,
@@ -96,13 +64,6 @@ TableRow row_head(const CouettePoint& point, double duration, int replicas) {
 // effective samples count, for they scatter little.
 constexpr double fewest_samples_of_a_target = 50.0;
 
-// The time that was recorded: the duration asked for, unless that is no whole number of samples.
-double recorded_time(double duration, std::span<const CouetteRecord> replicas) {
-  if (replicas.empty() || replicas[0].samples.empty()) return duration;
-  const double recorded = replicas[0].sample_interval * static_cast<double>(replicas[0].samples.size());
-  return std::abs(recorded - duration) > 1e-6 * duration ? recorded : duration;
-}
-
 }  // namespace
 
 std::string_view status_name(RowStatus status) {
@@ -125,14 +86,12 @@ bool target_reached(const CouettePoint& point, const Estimate& viscosity) {
 
 TableRow summarize(const CouettePoint& point, double duration, std::span<const CouetteRecord> replicas) {
   TableRow row = row_head(point, recorded_time(duration, replicas), static_cast<int>(replicas.size()));
-  const std::vector<std::size_t> cuts = equilibration_cuts(replicas);
-  double discarded = 0.0;
-  for (std::size_t r = 0; r < replicas.size(); ++r) {
-    discarded += static_cast<double>(cuts[r]) * replicas[r].sample_interval;
-    row.worst_energy_error = std::max(row.worst_energy_error, replicas[r].worst_energy_error);
-    row.subdivided_steps += replicas[r].subdivided_steps;
+  const std::vector<std::size_t> cuts = cuts_of(replicas);
+  for (const CouetteRecord& record : replicas) {
+    row.worst_energy_error = std::max(row.worst_energy_error, record.worst_energy_error);
+    row.subdivided_steps += record.subdivided_steps;
   }
-  if (!replicas.empty()) row.equilibration_discarded = discarded / static_cast<double>(replicas.size());
+  row.equilibration_discarded = discarded_time<CouetteRecord>(replicas, cuts);
 
   for (std::size_t i = 0; i < observables.size(); ++i) {
     const auto place = std::find(quantities.begin(), quantities.end(), observables[i]) - quantities.begin();
@@ -177,7 +136,7 @@ TableRow failed_row(const CouettePoint& point, std::string message) {
 
 Estimate current_viscosity(const CouettePoint& point, std::span<const CouetteRecord> replicas) {
   if (point.strain_rate == 0.0) return unknown;
-  return statistics::pooled_mean(viscosity_series(point.strain_rate, replicas, equilibration_cuts(replicas)));
+  return statistics::pooled_mean(viscosity_series(point.strain_rate, replicas, cuts_of(replicas)));
 }
 
 ReplicaRow replica_row(const CouettePoint& point, int replica, const CouetteRecord& record) {

@@ -25,7 +25,8 @@ namespace {
 
 }  // namespace
 
-FrameSpool::FrameSpool(const std::filesystem::path& path, std::int64_t particles) : path_(path), particles_(particles) {
+FrameSpool::FrameSpool(const std::filesystem::path& path, std::int64_t particles, bool internal_energies)
+    : path_(path), particles_(particles), internal_energies_(internal_energies) {
   FileDescriptor file(path.string(), O_RDWR | O_CREAT);
   struct stat status {};
   if (!file.is_open() || ::fstat(file.number(), &status) != 0) fail(path_, "open");
@@ -38,6 +39,7 @@ FrameSpool::~FrameSpool() { close_file(); }
 FrameSpool::FrameSpool(FrameSpool&& other) noexcept
     : path_(std::move(other.path_)),
       particles_(other.particles_),
+      internal_energies_(other.internal_energies_),
       count_(other.count_),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
@@ -46,6 +48,7 @@ FrameSpool& FrameSpool::operator=(FrameSpool&& other) noexcept {
     close_file();
     path_ = std::move(other.path_);
     particles_ = other.particles_;
+    internal_energies_ = other.internal_energies_;
     count_ = other.count_;
     descriptor_ = std::exchange(other.descriptor_, -1);
   }
@@ -56,20 +59,23 @@ void FrameSpool::close_file() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::int64_t FrameSpool::record_size() const { return 8 * (5 + 4 * particles_ + 1); }
+std::int64_t FrameSpool::record_size() const { return 8 * (5 + (internal_energies_ ? 5 : 4) * particles_ + 1); }
 
 void FrameSpool::append(const cases::Frame& frame) {
   const auto numbers = static_cast<std::size_t>(2 * particles_);
   if (frame.position.size() != numbers || frame.momentum.size() != numbers)
     throw RunFailed(fmt::format("a frame of {} particles cannot be added to {}, which holds frames of {}",
                                 frame.position.size() / 2, path_.string(), particles_));
+  if (frame.internal_energy.size() != static_cast<std::size_t>(internal_energies_ ? particles_ : 0))
+    throw RunFailed(fmt::format("a frame with {} internal energies cannot be added to {}, which holds {} in each",
+                                frame.internal_energy.size(), path_.string(), internal_energies_ ? particles_ : 0));
   ArchiveWriter record;
   record.put(frame.step);
   record.put(frame.time);
   record.put(frame.offset);
   record.put(frame.box);
   std::vector<std::byte> bytes = record.bytes();
-  for (const auto* values : {&frame.position, &frame.momentum}) {
+  for (const auto* values : {&frame.position, &frame.momentum, &frame.internal_energy}) {
     const auto view = std::as_bytes(std::span(*values));
     bytes.insert(bytes.end(), view.begin(), view.end());
   }
@@ -116,10 +122,13 @@ cases::Frame FrameSpool::read(std::int64_t index) const {
   frame.time = record.get<double>();
   frame.offset = record.get<double>();
   frame.box = record.get<std::array<double, 2>>();
-  for (auto* values : {&frame.position, &frame.momentum}) {
-    values->resize(static_cast<std::size_t>(2 * particles_));
-    for (double& value : *values) value = record.get<double>();
-  }
+  const auto read_numbers = [&](std::vector<double>& values, std::int64_t count) {
+    values.resize(static_cast<std::size_t>(count));
+    for (double& value : values) value = record.get<double>();
+  };
+  read_numbers(frame.position, 2 * particles_);
+  read_numbers(frame.momentum, 2 * particles_);
+  if (internal_energies_) read_numbers(frame.internal_energy, particles_);
   return frame;
 }
 

@@ -48,4 +48,9 @@ cases::RowStatus RowCells::status() const {
       fmt::format("{}:{}: status is \"{}\" where ok, short or failed was expected", file_.path(), row_.line, name));
 }
 
+void RowCells::refuse_choice(std::string_view column, std::string_view cell, std::string_view known) const {
+  throw BadInput(
+      fmt::format("{}:{}: {} is \"{}\" where one of {} was expected", file_.path(), row_.line, column, cell, known));
+}
+
 }  // namespace lucy::files

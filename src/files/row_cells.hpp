@@ -29,8 +29,21 @@ class RowCells {
   statistics::Estimate estimate(std::string_view name) const;
   /// From the column "status".
   cases::RowStatus status() const;
+  /// From a column that holds one of the words of a list such as motion::cooling_names.
+  template <class Names>
+  auto choice(std::string_view column, const Names& names) const {
+    const std::string& cell = row_.cells[file_.column(column)];
+    std::string known;
+    for (const auto& [name, value] : names) {
+      if (name == cell) return value;
+      known += (known.empty() ? "" : ", ") + std::string(name);
+    }
+    refuse_choice(column, cell, known);
+  }
 
  private:
+  [[noreturn]] void refuse_choice(std::string_view column, std::string_view cell, std::string_view known) const;
+
   const CsvFile& file_;
   const CsvFile::Row& row_;
 };

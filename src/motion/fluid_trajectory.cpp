@@ -36,7 +36,13 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
   renew_list(0.0);
   prepare(now_, near_.age());
   start_energy_ = energy();
-  refuse_cold_particles();
+  if (cooling_ == Cooling::isoenergetic && !(internal_energy_ > 0.0)) {
+    throw BadInput(
+        fmt::format("isoenergetic cooling takes heat in proportion to the internal energy, and so needs a fluid that "
+                    "has some: at the start its sum is {:.6g}",
+                    internal_energy_));
+  }
+  refuse_impossible_particles();
 }
 
 template <int D>
@@ -138,12 +144,20 @@ std::string FluidTrajectory<D>::why_stuck(bool near, double piece) const {
 }
 
 template <int D>
-void FluidTrajectory<D>::refuse_cold_particles() const {
+void FluidTrajectory<D>::refuse_impossible_particles() const {
   if (!spam::has_temperature(fluid_.fluid().state)) return;
   const auto numbers_of_slots = near_.numbers();
   const double* const temperature = fluid_.temperature()[0];
+  const double densest = spam::densest(fluid_.fluid().state);
   for (std::size_t slot = 0; slot < numbers_of_slots.size(); ++slot) {
-    if (numbers_of_slots[slot] == pairs::nobody || temperature[slot] > 0.0) continue;
+    if (numbers_of_slots[slot] == pairs::nobody) continue;
+    if (fluid_.density()[0][slot] >= densest) {
+      throw RunFailed(fmt::format(
+          "at time {:.6g} the density of particle {} is {:.3g}, but from {:.3g} on its equation of state describes no "
+          "fluid; a smaller run.step or a smoother start may help",
+          time_, numbers_of_slots[slot], fluid_.density()[0][slot], densest));
+    }
+    if (temperature[slot] > 0.0) continue;
     throw RunFailed(fmt::format(
         "at time {:.6g} the temperature of particle {} is {:.3g} (density {:.3g}, energy {:.3g}): it was cooled or "
         "expanded beyond what its equation of state describes; a smaller run.step or a smoother start may help",
@@ -162,7 +176,7 @@ void FluidTrajectory<D>::advance(double dt) {
         return std::nullopt;
       },
       [&](double piece) { throw RunFailed(why_stuck(near, piece)); });
-  refuse_cold_particles();
+  refuse_impossible_particles();
 }
 
 template <int D>
@@ -175,6 +189,22 @@ std::vector<double> FluidTrajectory<D>::by_particle(const space::Columns& from, 
   std::vector<double> values(near_.particles() * static_cast<std::size_t>(count));
   near_.copy_by_particle(from, first, values, count);
   return values;
+}
+
+template <int D>
+std::vector<double> FluidTrajectory<D>::rates_of(const spam::Fluid<D>& fluid) const {
+  spam::SmoothParticles<D> other(fluid, near_.capacity());
+  const auto images = near_.images(near_.age());
+  other.evaluate(particles_at(now_.columns, images), team_);
+  const std::vector<double> accelerations = by_particle(other.acceleration(), 0, D);
+  const std::vector<double> energy_rates = by_particle(other.energy_rate(), 0, 1);
+  std::vector<double> rates;
+  rates.reserve(accelerations.size() + energy_rates.size());
+  for (std::size_t i = 0; i < energy_rates.size(); ++i) {
+    for (int d = 0; d < D; ++d) rates.push_back(accelerations[i * D + static_cast<std::size_t>(d)]);
+    rates.push_back(energy_rates[i]);
+  }
+  return rates;
 }
 
 template <int D>

@@ -57,7 +57,7 @@ Trajectory<D>::Trajectory(const kernel::Lucy<D>& kernel, const Start<D>& start, 
 
 template <int D>
 void Trajectory<D>::renew_list(double dt) {
-  near_.sort(now_.columns, next_.columns, std::array{&force_});
+  near_.sort(now_.columns, next_.columns, std::array{&force_, &density_});
   Speeds speeds;
   speeds.largest = std::sqrt(kinetic_.largest_square);
   speeds.typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles())));

@@ -22,13 +22,21 @@
 #include "lucy/archive.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
+#include "lucy/files/isomorphism_input.hpp"
 #include "lucy/files/schema.hpp"
+#include "lucy/files/shear_flow_input.hpp"
+#include "lucy/files/shear_flow_text.hpp"
 #include "lucy/files/table_text.hpp"
+#include "lucy/files/wave_input.hpp"
+#include "lucy/files/wave_text.hpp"
 #include "lucy/measure/correlator.hpp"
 #include "program/commands.hpp"
 #include "program/couette_point.hpp"
 #include "program/green_kubo_point.hpp"
+#include "program/isomorphism_point.hpp"
 #include "program/prediction.hpp"
+#include "program/shear_flow_point.hpp"
+#include "program/wave_point.hpp"
 
 namespace lucy::program {
 
@@ -97,6 +105,47 @@ std::vector<std::vector<std::string>> rows_of(const files::GreenKuboInput& input
   return table;
 }
 
+std::vector<std::vector<std::string>> rows_of(const files::IsomorphismInput& input) {
+  std::vector<std::vector<std::string>> table = {{"", "N", "E/N", "rate", "thermostat", "P0", "rho0", "step",
+                                                  "equilibration", "duration", "replicas", "samples every"}};
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const auto& point = input.points[i];
+    table.push_back({fmt::format("{}", i + 1), fmt::format("{}", point.particles),
+                     format_plain(point.energy_per_particle), format_plain(point.strain_rate),
+                     std::string(thermostat_name(cases::sweep_row(point).thermostat)), format_plain(point.pressure),
+                     format_plain(point.reference_density), format_plain(point.step), format_plain(point.equilibration),
+                     format_plain(point.duration), fmt::format("{}", point.replicas),
+                     format_plain(cases::sample_steps(point) * point.step)});
+  }
+  return table;
+}
+
+std::vector<std::vector<std::string>> rows_of(const files::ShearFlowInput& input) {
+  std::vector<std::vector<std::string>> table = {
+      {"", "N", "fluid", "conductivity", "step", "equilibration", "duration", "replicas", "samples every"}};
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const auto& point = input.points[i];
+    table.push_back({fmt::format("{}", i + 1), fmt::format("{}", point.particles), files::shear_flow_label(point),
+                     format_plain(point.conductivity), format_plain(point.step), format_plain(point.equilibration),
+                     format_plain(point.duration), fmt::format("{}", point.replicas),
+                     format_plain(cases::sample_steps(point) * point.step)});
+  }
+  return table;
+}
+
+std::vector<std::vector<std::string>> rows_of(const files::WaveInput& input) {
+  std::vector<std::vector<std::string>> table = {{"", fmt::format("{}s", files::command_name(input.quantity)), "step",
+                                                  "equilibration", "duration", "replicas", "samples every"}};
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const auto& point = input.points[i];
+    const std::string difference = files::wave_difference(point, input.points.front());
+    table.push_back({fmt::format("{}", i + 1), i == 0 ? files::wave_label(point) : difference, format_plain(point.step),
+                     format_plain(point.equilibration), format_plain(point.duration), fmt::format("{}", point.replicas),
+                     format_plain(cases::wave_schedule(point).sample_interval(point))});
+  }
+  return table;
+}
+
 /// Keys that are set but that no row makes use of, and what would.
 std::vector<std::string> keys_without_effect(const std::vector<cases::CouettePoint>& points) {
   using cases::CouettePoint;
@@ -157,6 +206,36 @@ Planned planned(const cases::GreenKuboPoint& point) {
   measurable.particles = std::min(point.particles, most_particles);
   return {std::make_unique<GreenKuboStatePoint>(point, "", files::H5mdAuthorship{}),
           std::make_unique<GreenKuboStatePoint>(measurable, "", files::H5mdAuthorship{})};
+}
+
+Planned planned(const cases::IsomorphismPoint& point) {
+  cases::IsomorphismPoint measurable = point;
+  measurable.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
+  measurable.equilibration = 0.0;
+  measurable.particles = std::min(point.particles, most_particles);
+  return {std::make_unique<IsomorphismStatePoint>(point), std::make_unique<IsomorphismStatePoint>(measurable)};
+}
+
+Planned planned(const cases::ShearFlowPoint& point) {
+  cases::ShearFlowPoint measurable = point;
+  measurable.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
+  measurable.frame_interval = 0.0;
+  measurable.particles = std::min(point.particles, most_particles);
+  return {std::make_unique<ShearFlowStatePoint>(point, "", files::H5mdAuthorship{}),
+          std::make_unique<ShearFlowStatePoint>(measurable, "", files::H5mdAuthorship{})};
+}
+
+Planned planned(const cases::WavePoint& point) {
+  const auto steps = std::min<std::int64_t>(cases::wave_schedule(point).steps_per_sample, most_steps);
+  cases::WavePoint measurable = point;
+  measurable.equilibration = 0.0;
+  measurable.sample_interval = static_cast<double>(steps) * point.step;
+  measurable.frame_interval =
+      static_cast<double>(most_steps / steps) * measurable.sample_interval;  // no interval is longer
+  measurable.duration = 1e6 * measurable.sample_interval;
+  measurable.particles = std::min(point.particles, most_particles);
+  return {std::make_unique<WaveStatePoint>(point, "", files::H5mdAuthorship{}),
+          std::make_unique<WaveStatePoint>(measurable, "", files::H5mdAuthorship{})};
 }
 
 struct Measurement {
@@ -235,6 +314,45 @@ DiskUse predict_disk_use(const files::SweepInput& input, double state_bytes, boo
   return use;
 }
 
+DiskUse predict_disk_use(const files::IsomorphismInput& input, double state_bytes, bool /*at_most*/) {
+  DiskUse use;
+  for (const auto& point : input.points) {
+    use.results += 4e3;
+    const double samples = point.duration / (cases::sample_steps(point) * point.step);
+    use.checkpoints +=
+        2.0 * point.replicas *
+        (static_cast<double>(point.particles) * state_bytes + samples * sizeof(cases::IsomorphismSample));
+  }
+  return use;
+}
+
+DiskUse predict_disk_use(const files::ShearFlowInput& input, double state_bytes, bool /*at_most*/) {
+  DiskUse use{picture_bytes, 0.0};
+  for (const auto& point : input.points) {
+    const double samples = point.duration / (cases::sample_steps(point) * point.step);
+    constexpr double sample_bytes = sizeof(cases::ShearFlowSample);
+    // Beside the samples: their step and time, of averages and of instants.
+    use.results += point.replicas * (samples * (sample_bytes + 32.0) + 2.0 * hdf5_bytes);
+    use.checkpoints +=
+        2.0 * point.replicas * (static_cast<double>(point.particles) * state_bytes + samples * sample_bytes);
+    add_frames(use, point.particles, point.frame_interval, point.duration);
+  }
+  return use;
+}
+
+DiskUse predict_disk_use(const files::WaveInput& input, double state_bytes, bool /*at_most*/) {
+  DiskUse use{4.0 * picture_bytes, 0.0};
+  for (const auto& point : input.points) {
+    const auto samples = static_cast<double>(cases::wave_schedule(point).samples);
+    use.results += samples * 150.0 + 4e3;
+    if (point.frame_interval > 0.0) use.results += point.replicas * (samples * 64.0 + hdf5_bytes);
+    use.checkpoints += 2.0 * point.replicas *
+                       (static_cast<double>(point.particles) * state_bytes + samples * sizeof(cases::WaveSample));
+    add_frames(use, point.particles, point.frame_interval, point.duration);
+  }
+  return use;
+}
+
 /// A checkpoint of a replica but for its series, in bytes. Correlators are of a size that has little to do with the
 /// number of particles: it is counted, as of the classes in measure/, not measured.
 double checkpoint_bytes(const cases::GreenKuboPoint& point) {
@@ -271,6 +389,13 @@ DiskUse predict_disk_use(const files::GreenKuboInput& input, double /*state_byte
   }
   return use;
 }
+
+/// Whose particle-steps work is counted in, where those of different points cost differently.
+template <class Input>
+std::string_view unit_of_work(const Input& /*input*/) {
+  return "";
+}
+std::string_view unit_of_work(const files::WaveInput& /*input*/) { return ", as of atoms with range 3"; }
 
 template <class Input>
 int predict(const Input& input, const std::vector<std::string>& idle_keys) {
@@ -325,11 +450,12 @@ int predict(const Input& input, const std::vector<std::string>& idle_keys) {
     return open_ended ? fmt::format("{} to {}", least, most) : least;
   };
 
-  fmt::print("\nwork: {} particle-steps\n",
-             span(count_text(work(small_least, large_least)), count_text(work(small_most, large_most))));
-  const auto say_speed = [](const Measurement& measured, std::int64_t particles, int busy, std::string_view how) {
-    fmt::print("speed: {} ns per particle and step, {}, measured just now on this machine with N = {} ({} busy)\n",
-               measured.speed > 0.0 ? format_plain(1e9 / measured.speed, 3) : "unknown", how, particles,
+  const std::string_view unit = unit_of_work(input);
+  fmt::print("\nwork: {} particle-steps{}\n",
+             span(count_text(work(small_least, large_least)), count_text(work(small_most, large_most))), unit);
+  const auto say_speed = [&](const Measurement& measured, std::int64_t particles, int busy, std::string_view how) {
+    fmt::print("speed: {} ns per particle and step{}, {}, measured just now on this machine with N = {} ({} busy)\n",
+               measured.speed > 0.0 ? format_plain(1e9 / measured.speed, 3) : "unknown", unit, how, particles,
                busy == 1 ? "1 thread" : fmt::format("{} threads", busy));
   };
   if (small_point) say_speed(small, small_point->particles(), copies, "one replica on each thread");
@@ -353,9 +479,18 @@ int check(const InputRequest& request, std::optional<InputKind> kind) {
     const bool sheared =
         files::has_section(request.input, "shear") ||
         std::ranges::any_of(request.overrides, [](const std::string& text) { return text.starts_with("shear."); });
-    kind = files::has_section(request.input, "correlation") || !sheared ? InputKind::green_kubo : InputKind::sweep;
+    kind = files::has_section(request.input, "isentropic")                ? InputKind::isomorphism
+           : files::has_section(request.input, "wave")                    ? InputKind::shear_wave
+           : files::has_section(request.input, "fluid") && sheared        ? InputKind::shear_flow
+           : files::has_section(request.input, "correlation") || !sheared ? InputKind::green_kubo
+                                                                          : InputKind::sweep;
   }
   if (*kind == InputKind::green_kubo) return predict(files::read_green_kubo(request.input, request.overrides), {});
+  if (*kind == InputKind::isomorphism) return predict(files::read_isomorphism(request.input, request.overrides), {});
+  if (*kind == InputKind::shear_flow) return predict(files::read_shear_flow(request.input, request.overrides), {});
+  for (const auto& [wave, quantity] : {std::pair{InputKind::shear_wave, cases::WaveQuantity::shear},
+                                       {InputKind::temperature_wave, cases::WaveQuantity::temperature}})
+    if (*kind == wave) return predict(files::read_wave(quantity, request.input, request.overrides), {});
   const files::SweepInput input = files::read_sweep(request.input, request.overrides);
   return predict(input, keys_without_effect(input.points));
 }

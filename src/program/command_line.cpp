@@ -42,9 +42,14 @@ constexpr std::string_view short_help =
     "\n"
     "  lucy sweep INPUT [--out DIR] [--set key=value]...   run a table of shear viscosities\n"
     "  lucy green-kubo INPUT [--out DIR] [--set ...]...    viscosities from equilibrium fluctuations\n"
-    "  lucy check INPUT [--set key=value]...               say what either would do and cost\n"
+    "  lucy isomorphism INPUT [--out DIR] [--set ...]...   atoms and smooth particles compared bit by bit\n"
+    "  lucy shear-flow INPUT [--out DIR] [--set ...]...    viscous fluids of smooth particles under shear\n"
+    "  lucy shear-wave INPUT [--out DIR] [--set ...]...    decaying waves: what viscosity particles have, and why\n"
+    "  lucy temperature-wave INPUT [--out DIR] ...         the same of thermal diffusivity\n"
+    "  lucy check INPUT [--set key=value]...               say what any of these would do and cost\n"
     "  lucy compare TABLE --with NAME                      a table beside a published one\n"
     "  lucy viscosity SWEEP... GREEN-KUBO                  both routes and print side by side\n"
+    "  lucy fields FILE.h5 [--frame N] [--out DIR]         a saved state as fields on a grid\n"
     "  lucy explain [KEY]                                  the keys of an input file\n"
     "\n"
     "A first one: lucy sweep inputs/quick.toml\n"
@@ -232,20 +237,65 @@ int run_program(int argument_count, const char* const* argument_values) {
       "  lucy green-kubo inputs/posch1995_green_kubo.toml --set correlation.diffusion=true --out runs/diffusion\n"
       "  lucy green-kubo --from-series stress.dat --interval 0.2 --volume 1024 --temperature 0.539");
 
+  auto* isomorphism_command =
+      program.add_subcommand("isomorphism", "Atoms and smooth particles side by side, compared bit by bit");
+  add_input(isomorphism_command);
+  isomorphism_command->footer(
+      "\nExit code 0: every bit is the same; 1: not, and the first difference is named. Interrupted, the same command "
+      "resumes.\n"
+      "\nExamples:\n"
+      "  lucy isomorphism inputs/isomorphism.toml\n"
+      "  lucy isomorphism inputs/isomorphism.toml --set isentropic.pressure=2 --out runs/another_fluid");
+
+  auto* shear_flow_command =
+      program.add_subcommand("shear-flow", "Viscous fluids of smooth particles under shear, in a steady state");
+  add_input(shear_flow_command);
+  shear_flow_command->footer(
+      "\nInterrupted, the same command resumes.\n"
+      "\nExamples:\n"
+      "  lucy shear-flow inputs/shear_flow.toml\n"
+      "  lucy shear-flow inputs/shear_flow.toml --set shear.strain_rate=[0.05,0.1] --set fluid.viscosity=1 --out "
+      "runs/thick");
+
+  auto* shear_wave_command = program.add_subcommand(
+      "shear-wave", "Decaying shear waves: what viscosity smooth particles and atoms have, and where it comes from");
+  add_input(shear_wave_command);
+  shear_wave_command->footer(
+      "\nInterrupted, the same command resumes and ends with the same bits.\n"
+      "\nExamples:\n"
+      "  lucy shear-wave inputs/shear_wave.toml\n"
+      "  lucy shear-wave inputs/shear_wave.toml --set system.particles=1024 --set fluid.viscosity=0.5 --out "
+      "runs/thick");
+
+  auto* temperature_wave_command = program.add_subcommand(
+      "temperature-wave", "Decaying temperature waves: what thermal diffusivity smooth particles have");
+  add_input(temperature_wave_command);
+  temperature_wave_command->footer(
+      "\nInterrupted, the same command resumes and ends with the same bits.\n"
+      "\nExample:\n"
+      "  lucy temperature-wave inputs/temperature_wave.toml");
+
   auto* check_command = program.add_subcommand("check", "Validate an input and predict its cost; run nothing");
   add_input(check_command);
   check_command->footer("\nExample:\n  lucy check inputs/posch1995_table1.toml --set run.replicas=8");
 
-  const std::map<std::string, InputKind> kinds = {{"sweep", InputKind::sweep}, {"green-kubo", InputKind::green_kubo}};
+  const std::map<std::string, InputKind> kinds = {{"sweep", InputKind::sweep},
+                                                  {"green-kubo", InputKind::green_kubo},
+                                                  {"isomorphism", InputKind::isomorphism},
+                                                  {"shear-flow", InputKind::shear_flow},
+                                                  {"shear-wave", InputKind::shear_wave},
+                                                  {"temperature-wave", InputKind::temperature_wave}};
   std::optional<InputKind> kind;
   const auto add_kind = [&](CLI::App* command, const char* text) {
     command->add_option("--for", kind, text)->transform(CLI::CheckedTransformer(kinds))->type_name("COMMAND");
   };
-  add_kind(check_command, "sweep or green-kubo; default: by the sections of the file");
+  add_kind(check_command,
+           "sweep, green-kubo, isomorphism, shear-flow, shear-wave or temperature-wave; default: by the sections of "
+           "the file");
 
   auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
   std::string filter;
-  add_kind(explain_command, "sweep (the default) or green-kubo");
+  add_kind(explain_command, "sweep (the default), green-kubo, isomorphism, shear-flow, shear-wave or temperature-wave");
   explain_command->add_option("KEY", filter, "A section (run) or a key (run.step); default: all of them");
   explain_command->set_help_flag("-h,--help", "This text");
   explain_command->footer(
@@ -284,6 +334,36 @@ int run_program(int argument_count, const char* const* argument_values) {
   viscosity_command->footer(
       "\nExample:\n  lucy viscosity runs/posch1995_table1 runs/posch1995_table2 runs/posch1995_green_kubo");
 
+  auto* fields_command = program.add_subcommand("fields", "A saved state as fields on a grid, and their spectra");
+  FieldsRequest fields_request;
+  std::string frame;
+  std::string weight;
+  double frame_time = 0.0;
+  double weight_range = 0.0;
+  std::array<int, 2> grid{};
+  fields_command->add_option("FILE", fields_request.file, "point_NNN.h5 of a run with output.frame_interval")
+      ->required();
+  fields_command->add_option("--replica", fields_request.replica, "Number of the replica; default: 1")->type_name("N");
+  fields_command->add_option("--frame", frame, "Number of the frame, from 1, or all; default: the last")
+      ->type_name("N");
+  fields_command->add_option("--time", frame_time, "The frame nearest to this time")->type_name("TIME");
+  fields_command->add_flag("--average", fields_request.average, "Average over all frames, as --frame all");
+  fields_command->add_option("--grid", grid, "Nodes along x and y; default: six to the range")->type_name("NX NY");
+  fields_command->add_option("--kernel", weight, "Weight function, lucy or monaghan; default: the file's")
+      ->type_name("NAME");
+  fields_command->add_option("--range", weight_range, "Its range; default: the file's")->type_name("H");
+  fields_command->add_option("--out", out, "Directory of the results; default: FILE_fields beside the file")
+      ->type_name("DIR");
+  fields_command->add_flag_callback(
+      "--no-pictures", [&] { fields_request.pictures = false; }, "Do not draw");
+  fields_command->set_help_flag("-h,--help", "This text");
+  fields_command->footer(
+      "\nThe directory may be new, empty, or hold earlier fields, which are replaced.\n"
+      "\nExamples:\n"
+      "  lucy sweep inputs/quick.toml --set output.frame_interval=20 --out runs/frames\n"
+      "  lucy fields runs/frames/point_004.h5\n"
+      "  lucy fields runs/frames/point_004.h5 --time 100 --grid 256 256 --kernel monaghan --range 4 --out runs/wider");
+
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants it
     program.parse(reversed);
@@ -297,7 +377,9 @@ int run_program(int argument_count, const char* const* argument_values) {
   return tell_errors([&] {
     request.input = input;
     if (!out.empty()) request.out = out;
-    for (const auto* command : {sweep_command, green_kubo_command, check_command, viscosity_command})
+    for (const auto* command :
+         {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command, shear_wave_command,
+          temperature_wave_command, check_command, viscosity_command, fields_command})
       if (out.empty() && command->count("--out") > 0) throw BadInput("--out is empty where a directory is expected");
     if (sweep_command->parsed()) return sweep(request);
     if (green_kubo_command->parsed()) {
@@ -324,12 +406,26 @@ int run_program(int argument_count, const char* const* argument_values) {
       series.pictures = !no_pictures;
       return green_kubo_series(series);
     }
+    if (isomorphism_command->parsed()) return isomorphism(request);
+    if (shear_flow_command->parsed()) return shear_flow(request);
+    if (shear_wave_command->parsed()) return wave(request, cases::WaveQuantity::shear);
+    if (temperature_wave_command->parsed()) return wave(request, cases::WaveQuantity::temperature);
     if (check_command->parsed()) return check(request, kind);
     if (explain_command->parsed()) return explain(filter, kind.value_or(InputKind::sweep));
     if (viscosity_command->parsed()) {
       if (results.size() < 2)
         throw BadInput("lucy viscosity needs the directory of a sweep and that of a Green-Kubo run, in this order");
       return viscosity(std::span(results).first(results.size() - 1), results.back(), request.out);
+    }
+    if (fields_command->parsed()) {
+      if (fields_command->count("--frame") > 0) fields_request.frame = frame;
+      if (fields_command->count("--time") > 0) fields_request.time = frame_time;
+      if (fields_command->count("--grid") > 0) fields_request.grid = grid;
+      if (fields_command->count("--kernel") > 0) fields_request.kernel = weight;
+      if (fields_command->count("--range") > 0) fields_request.range = weight_range;
+      fields_request.out = request.out;
+      fields_request.command_line = words;
+      return fields(fields_request);
     }
     return compare(table, published);
   });

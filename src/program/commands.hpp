@@ -5,11 +5,14 @@
 // failed (or disagreed). BadInput (2), RunFailed (1) and what else is thrown are for command_line.cpp to tell.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "lucy/cases/wave.hpp"
 
 namespace lucy::program {
 
@@ -27,6 +30,18 @@ int sweep(const InputRequest& request);
 /// Runs every state of a Green-Kubo input, or goes on with it, and writes viscosity.csv and its companions
 /// (green_kubo.cpp). `pictures`: draw them.
 int green_kubo(const InputRequest& request, bool pictures);
+
+/// Moves atoms and smooth particles side by side and compares all bits, or goes on with it; writes isomorphism.csv
+/// (isomorphism.cpp). 1 when anything differs.
+int isomorphism(const InputRequest& request);
+
+/// Shears viscous fluids of smooth particles, or goes on with it; writes shear_flow.csv and its companions
+/// (shear_flow.cpp).
+int shear_flow(const InputRequest& request);
+
+/// Lets shear or temperature waves decay, or goes on with it; writes shear_wave.csv or temperature_wave.csv and their
+/// companions (wave.cpp).
+int wave(const InputRequest& request, cases::WaveQuantity quantity);
 
 /// A stress series that another program sampled.
 struct SeriesRequest {
@@ -53,11 +68,31 @@ int green_kubo_series(const SeriesRequest& request);
 int viscosity(std::span<const std::filesystem::path> sweeps, const std::filesystem::path& green_kubo,
               const std::optional<std::filesystem::path>& out);
 
-/// The commands that read an input file.
-enum class InputKind { sweep, green_kubo };
+/// Which state of which file becomes fields, and how.
+struct FieldsRequest {
+  std::filesystem::path file;
+  int replica = 1;                                ///< from 1
+  std::optional<std::string> frame = {};          ///< number from 1, or "all"; default: the last
+  std::optional<double> time = {};                ///< the nearest frame
+  bool average = false;                           ///< over all frames
+  std::optional<std::array<int, 2>> grid = {};    ///< default: six nodes to the range
+  std::optional<std::string> kernel = {};         ///< default: the file's
+  std::optional<double> range = {};               ///< default: the file's
+  std::optional<std::filesystem::path> out = {};  ///< default: STEM_fields beside the file
+  std::vector<std::string> command_line = {};     ///< as typed, for the record
+  bool pictures = true;
+};
 
-/// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, a file with a [correlation]
-/// section or without a [shear] section is one of green-kubo, any other one of a sweep.
+/// Density, velocity, temperature, pressure and energy of a saved state on a grid, and their spectra (fields.cpp).
+int fields(const FieldsRequest& request);
+
+/// The commands that read an input file.
+enum class InputKind { sweep, green_kubo, isomorphism, shear_flow, shear_wave, temperature_wave };
+
+/// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, a file with an [isentropic]
+/// section is one of isomorphism, a file with a [wave] section one of shear-wave, a file with a [fluid] and a [shear]
+/// section one of shear-flow, a file with a [correlation] section or without a [shear] section one of green-kubo, any
+/// other one of a sweep.
 int check(const InputRequest& request, std::optional<InputKind> kind);
 
 /// Prints the keys of an input file (explain.cpp). `filter`: a section or a key, or empty.

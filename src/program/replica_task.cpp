@@ -62,7 +62,7 @@ ReplicaTask::ReplicaTask(const StatePoint& point, int number, int threads, Repli
       replica_(point.start(number, threads)) {}
 
 std::optional<std::string> ReplicaTask::take_up() {
-  if (files_.frames) frames_.emplace(*files_.frames, point_.particles());
+  if (files_.frames) frames_.emplace(*files_.frames, point_.particles(), !replica_->frame().internal_energy.empty());
   std::optional<std::string> told;
   if (const auto read = files::read_checkpoint(files_.checkpoint, files_.identity); read.payload) {
     try {

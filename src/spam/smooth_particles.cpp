@@ -10,8 +10,7 @@
 
 #include "lucy/errors.hpp"
 #include "lucy/spam/density.hpp"
-#include "lucy/spam/entropy_production.hpp"
-#include "lucy/spam/rates.hpp"
+#include "spam/pass_columns.hpp"
 
 namespace lucy::spam {
 
@@ -28,33 +27,6 @@ void for_slots(std::size_t slots, const Team& team, const Work& work) {
     const std::size_t end = std::min(begin + chunk_slots, slots);
     for (std::size_t slot = begin; slot < end; ++slot) work(slot);
   });
-}
-
-/// Pointers to `count` columns from `first` on, behind `begin` others.
-template <std::size_t size>
-void append(std::array<const double*, size>& to, std::size_t begin, const space::Columns& columns, int first,
-            int count) {
-  for (int c = 0; c < count; ++c) to[begin + static_cast<std::size_t>(c)] = columns[first + c];
-}
-
-template <int D>
-constexpr int triangle = D*(D + 1) / 2;
-
-/// Newton's law without P_eq: the viscous stress of the particle at slot i, lower triangle by rows.
-template <int D>
-std::array<double, triangle<D>> viscous_stress(const Transport& transport, const space::Columns& gradients,
-                                               std::size_t i) {
-  double divergence = 0.0;
-  for (int a = 0; a < D; ++a) divergence += gradients[a * D + a][i];
-  const double spherical = (transport.bulk_viscosity - 2.0 / D * transport.viscosity) * divergence;
-  std::array<double, triangle<D>> stress;
-  for (int a = 0; a < D; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      const double shear = -transport.viscosity * (gradients[a * D + b][i] + gradients[b * D + a][i]);
-      stress[a * (a + 1) / 2 + b] = a == b ? shear - spherical : shear;
-    }
-  }
-  return stress;
 }
 
 }  // namespace
@@ -131,33 +103,6 @@ void SmoothParticles<D>::apply_equation_of_state(const Particles<D>& particles, 
 }
 
 template <int D>
-void SmoothParticles<D>::find_gradients(const Particles<D>& particles, const Team& team) {
-  const auto pass = [&]<DensityMean mean, class Kernel>(const Kernel& kernel) {
-    using Sum = GradientSum<D, Kernel, mean>;
-    pairs::Pass<D, Sum> columns;
-    columns.position = particles.position;
-    std::copy_n(particles.velocity.begin(), D, columns.carried.begin());
-    columns.carried[D] = temperature_[0];
-    columns.carried[D + 1] = mean_factor_[0];
-    for (int c = 0; c < Sum::given; ++c) {
-      columns.given[c] = gradients_[c];
-      std::fill_n(gradients_[c], particles.list.slots(), 0.0);
-    }
-    pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns, Sum{kernel, particles.strain_rate},
-                       team);
-  };
-  std::visit(
-      [&](const auto& kernel) {
-        if (fluid_.mean == DensityMean::geometric) {
-          pass.template operator()<DensityMean::geometric>(kernel);
-        } else {
-          pass.template operator()<DensityMean::arithmetic>(kernel);
-        }
-      },
-      fluid_.weight);
-}
-
-template <int D>
 void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Team& team) {
   const double* const rho = density_[0];
   const double* const pressure = pressure_[0];
@@ -177,37 +122,6 @@ void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Te
 }
 
 template <int D>
-void SmoothParticles<D>::find_rates(const Particles<D>& particles, const Team& team) {
-  for (int d = 0; d < D; ++d) {
-    const double gravity = fluid_.gravity[d];
-    double* const column = acceleration_[d];
-    for (std::size_t i = 0; i < particles.number.size(); ++i)
-      column[i] = particles.number[i] == pairs::nobody ? 0.0 : gravity;
-  }
-  std::fill_n(energy_rate_[0], particles.list.slots(), 0.0);
-  const auto pass = [&]<Carried contents, class Kernel>(const Kernel& kernel) {
-    using Sum = RateSum<D, Kernel, contents>;
-    pairs::Pass<D, Sum> columns;
-    columns.position = particles.position;
-    std::copy_n(particles.velocity.begin(), D, columns.carried.begin());
-    append(columns.carried, D, stress_, 0, Sum::stresses + Sum::fluxes);
-    for (int d = 0; d < D; ++d) columns.given[d] = acceleration_[d];
-    columns.given[D] = energy_rate_[0];
-    virial_xy_ = pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns,
-                                    Sum{kernel, particles.strain_rate}, team)[0];
-  };
-  std::visit(
-      [&](const auto& kernel) {
-        if (fluid_.transport.none()) {
-          pass.template operator()<Carried::scalar_pressure>(kernel);
-        } else {
-          pass.template operator()<Carried::tensor_and_flux>(kernel);
-        }
-      },
-      fluid_.weight);
-}
-
-template <int D>
 double SmoothParticles<D>::viscous_stress_xy(std::size_t slots) const {
   double sum = 0.0;
   if constexpr (D > 1) {
@@ -217,41 +131,6 @@ double SmoothParticles<D>::viscous_stress_xy(std::size_t slots) const {
         sum -= fluid_.transport.viscosity * (gradients_[1][i] + gradients_[D][i]) / density_[0][i];
   }
   return sum;
-}
-
-template <int D>
-space::Columns SmoothParticles<D>::entropy_production(const Particles<D>& particles, const Team& team) const {
-  if (!has_temperature(fluid_.state)) throw BadInput("an isentropic fluid produces no entropy: it has no temperature");
-  const std::size_t slots = particles.list.slots();
-  space::Columns produced(2, density_.slots());
-  if (fluid_.transport.none()) return produced;
-  // The viscous part of P/rho^2, Q/rho^2 and 1/T, from what is sorted along: stress_ is not.
-  space::Columns viscous(triangle<D>, density_.slots());
-  space::Columns flux(D, density_.slots());
-  space::Columns coldness(1, density_.slots());
-  for (std::size_t i = 0; i < slots; ++i) {
-    if (particles.number[i] == pairs::nobody) continue;
-    const double square = density_[0][i] * density_[0][i];
-    const auto stress = viscous_stress<D>(fluid_.transport, gradients_, i);
-    for (int c = 0; c < triangle<D>; ++c) viscous[c][i] = stress[c] / square;
-    for (int a = 0; a < D; ++a) flux[a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] / square;
-    coldness[0][i] = 1.0 / temperature_[0][i];
-  }
-  std::visit(
-      [&]<class Kernel>(const Kernel& kernel) {
-        using Sum = EntropySum<D, Kernel>;
-        pairs::Pass<D, Sum> columns;
-        columns.position = particles.position;
-        std::copy_n(particles.velocity.begin(), D, columns.carried.begin());
-        append(columns.carried, D, viscous, 0, triangle<D>);
-        append(columns.carried, D + triangle<D>, flux, 0, D);
-        append(columns.carried, D + triangle<D> + D, coldness, 0, 1);
-        columns.given = {produced[0], produced[1]};
-        pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns,
-                           Sum{kernel, particles.strain_rate}, team);
-      },
-      fluid_.weight);
-  return produced;
 }
 
 template <int D>

@@ -67,6 +67,13 @@ void expect_equal(const cases::Frame& a, const cases::Frame& b) {
   EXPECT_EQ(a.box, b.box);
   EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.momentum, b.momentum);
+  EXPECT_EQ(a.internal_energy, b.internal_energy);
+}
+
+cases::Frame fluid_frame(int number) {
+  cases::Frame result = frame(number);
+  for (int i = 0; i < 4; ++i) result.internal_energy.push_back(1.5 + 0.25 * i + 0.01 * number);
+  return result;
 }
 
 TEST(FrameSpool, GivesBackWhatWasAppended) {
@@ -144,6 +151,25 @@ TEST(FrameSpool, RefusesAFrameOfAnotherSize) {
   EXPECT_THROW(spool.append(frame(0)), RunFailed);
 }
 
+TEST(FrameSpool, KeepsInternalEnergiesWhereThereAreAny) {
+  const ScratchFolder folder;
+  {
+    FrameSpool spool(folder / "frames.bin", 4, true);
+    for (int i = 0; i < 3; ++i) spool.append(fluid_frame(i));
+    EXPECT_THAT(message_of<RunFailed>([&] { spool.append(frame(3)); }), HasSubstr("0 internal energies"));
+    EXPECT_EQ(spool.count(), 3);
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder / "frames.bin"), 3u * 8u * (5 + 5 * 4 + 1));
+  FrameSpool again(folder / "frames.bin", 4, true);
+  EXPECT_TRUE(again.internal_energies());
+  expect_equal(again.read(2), fluid_frame(2));
+  const FrameSpool moved = std::move(again);
+  expect_equal(moved.read(1), fluid_frame(1));
+
+  FrameSpool atoms(folder / "atoms.bin", 4);
+  EXPECT_THAT(message_of<RunFailed>([&] { atoms.append(fluid_frame(0)); }), HasSubstr("4 internal energies"));
+}
+
 std::vector<double> read_numbers(hid_t file, const char* path) {
   const hid_t dataset = H5Dopen2(file, path, H5P_DEFAULT);
   if (dataset < 0) return {};
@@ -216,6 +242,20 @@ TEST_F(H5mdTest, IsReadBackByTheLibrary) {
   EXPECT_EQ(address_of(file, "/observables/replica_01/potential_energy/time"),
             address_of(file, "/observables/replica_01/largest_kinetic_share/time"));
   EXPECT_EQ(H5Lexists(file, "/particles/replica_02", H5P_DEFAULT), 0);
+  H5Fclose(file);
+}
+
+TEST_F(H5mdTest, InternalEnergiesStandBesideTheMomenta) {
+  FrameSpool spool(folder_ / "fluid.bin", 4, true);
+  for (int i = 0; i < 2; ++i) spool.append(fluid_frame(i));
+  const std::vector<H5mdReplica> replicas = {{.replica = 0, .record = &first_, .frames = &spool}};
+  write_h5md(path_, point(), replicas, {});
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_THAT(read_numbers(file, "/particles/replica_01/internal_energy/value"),
+              ElementsAre(1.5, 1.75, 2.0, 2.25, 1.51, 1.76, 2.01, 2.26));
+  EXPECT_EQ(address_of(file, "/particles/replica_01/internal_energy/step"),
+            address_of(file, "/particles/replica_01/position/step"));
   H5Fclose(file);
 }
 

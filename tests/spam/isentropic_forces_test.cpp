@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <random>
-#include <vector>
 
 #include "lucy/md/lucy_atoms.hpp"
-#include "lucy/spam/density.hpp"
 #include "pairs/crowd.hpp"
 
 namespace lucy::spam {
@@ -19,7 +16,6 @@ namespace {
 
 using pairs::testing::Arranged;
 using pairs::testing::Crowd;
-using pairs::testing::for_all_pairs;
 
 constexpr double range = 3.0;
 
@@ -52,57 +48,6 @@ struct Fluid {
     return result;
   }
 };
-
-template <int D>
-void expect_density_of_all_partners(const Crowd<D>& crowd) {
-  const kernel::Lucy<D> kernel(range);
-  std::vector<double> density(crowd.position.size(), kernel.weight_at_zero());
-  for_all_pairs<D>(crowd.box, crowd.position, 0.0, range,
-                   [&](std::size_t i, std::size_t j, const auto& apart, const auto&) {
-                     double squared = 0.0;
-                     for (double component : apart) squared += component * component;
-                     density[i] += kernel.weight(std::sqrt(squared));
-                     density[j] += kernel.weight(std::sqrt(squared));
-                   });
-  const Fluid<D> fluid(crowd, Isentropic());
-  for (std::size_t slot = 0; slot < fluid.arranged.number.size(); ++slot) {
-    const auto number = fluid.arranged.number[slot];
-    if (number == pairs::nobody) continue;
-    const double expected = density[static_cast<std::size_t>(number)];
-    EXPECT_NEAR(fluid.fluid[0][slot], expected, 1e-13 * expected);
-  }
-}
-
-TEST(Density, CountsEveryPartnerAndTheParticleItself) {
-  std::mt19937_64 generator(3);
-  expect_density_of_all_partners<1>(crowd_in<1>({40.0}, 60, generator));
-  expect_density_of_all_partners<2>(crowd_in<2>({12.0, 9.0}, 200, generator));
-  expect_density_of_all_partners<3>(crowd_in<3>({7.0, 8.0, 9.0}, 400, generator));
-}
-
-// P/rho^2 = P0/(2 rho0^2) exactly, whatever the density: the heart of the isomorphism.
-TEST(Isentropic, ItsSpecificPressureIsOneHalfInEveryBit) {
-  std::mt19937_64 generator(5);
-  std::uniform_real_distribution<double> exponent(-30.0, 30.0);
-  const Isentropic unit;
-  const Isentropic other(4.0, 0.5);
-  for (int i = 0; i < 100000; ++i) {
-    const double rho = std::exp(exponent(generator));
-    EXPECT_EQ(bits(unit.pressure(rho) / (rho * rho)), bits(0.5));
-    EXPECT_EQ(bits(other.pressure(rho) / (rho * rho)), bits(8.0));
-  }
-  EXPECT_THROW(Isentropic(3.0, 1.0), BadInput);
-  EXPECT_THROW(Isentropic(1.0, -2.0), BadInput);
-}
-
-TEST(Isentropic, EnergyIsThePressuresWork) {
-  const Isentropic state(2.0, 0.5);
-  for (const double rho : {0.3, 1.0, 4.0}) {
-    const double step = 1e-6 * rho;
-    const double slope = (state.energy(rho + step) - state.energy(rho - step)) / (2.0 * step);
-    EXPECT_NEAR(slope, state.pressure(rho) / (rho * rho), 1e-8 * slope);
-  }
-}
 
 template <int D>
 void expect_atoms_bits(const Crowd<D>& crowd) {

@@ -4,7 +4,7 @@
 // Configurations on their way into a point's H5MD file: records of one size, appended while the point runs.
 // A checkpoint states how many records it knows of; what was appended after it is cut off when the run resumes.
 // Record, in the machine's byte order: step (8 bytes), time, offset, L_x, L_y, x0 y0 x1 y1 ..., px0 py0 px1 py1 ...,
-// CRC-64 of all these (checkpoint.hpp).
+// e0 e1 ... where internal energies are kept, CRC-64 of all these (checkpoint.hpp).
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,21 @@
 #include <filesystem>
 #include <vector>
 
-#include "lucy/cases/couette.hpp"
+#include "lucy/cases/frame.hpp"
 
 namespace lucy::files {
 
 class FrameSpool {
  public:
-  /// Opens or creates the file for frames of so many particles. Throws RunFailed with path and reason.
-  FrameSpool(const std::filesystem::path& path, std::int64_t particles);
+  /// Opens or creates the file for frames of so many particles, with or without their internal energies. Throws
+  /// RunFailed with path and reason.
+  FrameSpool(const std::filesystem::path& path, std::int64_t particles, bool internal_energies = false);
   ~FrameSpool();
   FrameSpool(FrameSpool&& other) noexcept;
   FrameSpool& operator=(FrameSpool&& other) noexcept;
 
   std::int64_t particles() const { return particles_; }
+  bool internal_energies() const { return internal_energies_; }
   /// Whole records in the file.
   std::int64_t count() const { return count_; }
 
@@ -49,6 +51,7 @@ class FrameSpool {
 
   std::filesystem::path path_;
   std::int64_t particles_ = 0;
+  bool internal_energies_ = false;
   std::int64_t count_ = 0;
   int descriptor_ = -1;
 };

@@ -11,10 +11,12 @@
 //     /particles/replica_01/position     step, time, value [frames][N][2]: wrapped into [0, L)
 //                          /velocity     laboratory: peculiar momentum / m + strain_rate y e_x
 //                          /momentum     peculiar
+//                          /internal_energy  per mass [frames][N]; of smooth particles that have them
 //                          /box          dimension, boundary; edges: step, time, value [frames][2][2], the rows being
 //                                        the edge vectors (L_x, 0) and (offset, L_y)
 //                          /lees_edwards offset (x-shift of the image above), direction (0: x), normal (1: y)
 //
+// Further cases write theirs with the parts in src/files/h5md_parts.hpp; h5md_reader.hpp reads any of them.
 // The value at (step, time) of an observable of a Couette point is the average over the sample interval that ends
 // there; those of a Green-Kubo state, /stress included, are of the instant itself. Step and time count from the start
 // of the run, equilibration included; steps are those of the stated size, however subdivided.

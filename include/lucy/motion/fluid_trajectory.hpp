@@ -58,12 +58,13 @@ class FluidTrajectory {
   enum Number : std::size_t { energy_input = 0 };
   static constexpr std::size_t numbers = 1;
 
-  /// Throws BadInput for a fluid that validate() refuses, RunFailed when the box is too small for the range.
+  /// Throws BadInput for a fluid that validate() refuses, and for isoenergetic cooling of one without internal energy;
+  /// RunFailed when the box is too small for the range, or for a start that advance() would refuse.
   FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStart<D>& start, double strain_rate, Cooling cooling,
                   const Watch& watch, const Team& team);
 
   /// Moves on by `dt`. Throws RunFailed, naming time, cause and particle, when even the smallest substep fails or a
-  /// temperature is no longer positive.
+  /// temperature is no longer positive, or a density beyond what the equation of state describes.
   void advance(double dt);
 
   /// As Trajectory::renew_list(): a loaded trajectory goes on with the same bits as the saved one if both renew first.
@@ -97,6 +98,9 @@ class FluidTrajectory {
   std::vector<double> pressures() const { return by_particle(fluid_.pressure(), 0, 1); }
   std::vector<double> accelerations() const { return by_particle(fluid_.acceleration(), 0, D); }
   std::vector<double> energy_rates() const { return by_particle(fluid_.energy_rate(), 0, 1); }
+  /// dv/dt (D numbers) and de/dt as they would be now were the particles of this fluid, whose weight must not reach
+  /// farther: what transport adds to a rate is that of the fluid less that of the same fluid without it.
+  std::vector<double> rates_of(const spam::Fluid<D>& fluid) const;
   /// d v_a/d x_b, D D each, then d T/d x_b, D each. Empty without transport.
   std::vector<double> gradients() const;
 
@@ -115,7 +119,7 @@ class FluidTrajectory {
   double largest_acceleration() const;
   bool list_lasts(double dt);
   bool try_step(double dt);
-  void refuse_cold_particles() const;
+  void refuse_impossible_particles() const;
   std::string why_stuck(bool near, double piece) const;
 
   double strain_rate_;

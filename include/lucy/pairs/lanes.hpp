@@ -11,6 +11,16 @@
 #include <experimental/simd>
 #include <type_traits>
 
+// No call is left in the pair loop, for which registers would have to be saved. With the sanitizers' checks in it, it
+// would be too large to compile so.
+#ifdef __SANITIZE_ADDRESS__
+#define LUCY_INLINE inline
+#define LUCY_INLINE_ALL
+#else
+#define LUCY_INLINE [[gnu::always_inline]] inline
+#define LUCY_INLINE_ALL [[gnu::flatten]]
+#endif
+
 namespace lucy::pairs {
 
 namespace simd = std::experimental;
@@ -31,7 +41,7 @@ Lanes rotate(const Lanes& value) {
 /// body(0) ... body(count - 1), the argument being a constant: arrays of Lanes that are reached by constants alone stay
 /// in registers, which a loop over their index would keep the compiler from.
 template <int count, class Body>
-[[gnu::always_inline]] inline void unrolled(const Body& body) {
+LUCY_INLINE void unrolled(const Body& body) {
   if constexpr (count > 0) {
     unrolled<count - 1>(body);
     body(std::integral_constant<int, count - 1>{});

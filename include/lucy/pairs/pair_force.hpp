@@ -69,8 +69,8 @@ struct PairForce {
   kernel::Lucy<D> kernel;
   Coefficient coefficient{};
 
-  [[gnu::always_inline]] void operator()(const Pair<D, carried>& pair, std::array<Lanes, given>& to_i,
-                                         std::array<Lanes, given>& to_j, std::array<Lanes, totals>& sums) const {
+  LUCY_INLINE void operator()(const Pair<D, carried>& pair, std::array<Lanes, given>& to_i,
+                              std::array<Lanes, given>& to_j, std::array<Lanes, totals>& sums) const {
     const Lanes slope = coefficient(pair) * kernel.slope(pair.distance);
     unrolled<D>([&](auto d) {
       to_i[d] = slope * pair.displacement[d];

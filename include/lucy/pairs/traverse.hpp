@@ -60,7 +60,7 @@ template <class Sum>
 using Given = std::array<Lanes, Sum::given>;
 
 template <std::size_t D>
-[[gnu::always_inline]] inline Lanes squared_length(const std::array<Lanes, D>& displacement) {
+LUCY_INLINE Lanes squared_length(const std::array<Lanes, D>& displacement) {
   Lanes squared = displacement[0] * displacement[0];
   unrolled<static_cast<int>(D) - 1>([&](auto d) { squared = fma(displacement[d + 1], displacement[d + 1], squared); });
   return squared;
@@ -75,8 +75,8 @@ struct Apart {
 };
 
 template <int D, class Sum>
-[[gnu::always_inline]] inline Apart<D> measure(const Pass<D, Sum>& pass, const Lanes& range_squared, std::size_t slot,
-                                               std::size_t cluster, const space::ImageShift<D>& shift) {
+LUCY_INLINE Apart<D> measure(const Pass<D, Sum>& pass, const Lanes& range_squared, std::size_t slot,
+                             std::size_t cluster, const space::ImageShift<D>& shift) {
   const std::size_t at = cluster * lane_count;
   Apart<D> apart;
   unrolled<D>([&](auto d) {
@@ -88,10 +88,10 @@ template <int D, class Sum>
 
 /// The sum over the pairs of particle `slot` with the eight of `cluster`, an image of which is shifted by `shift`.
 template <int D, class Sum>
-[[gnu::always_inline]] inline void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Apart<D>& apart,
-                                                     const std::array<Lanes, Sum::carried>& of_i, std::size_t cluster,
-                                                     const space::ImageShift<D>& shift, Given<Sum>& at_i,
-                                                     std::array<Lanes, Sum::totals>& totals) {
+LUCY_INLINE void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Apart<D>& apart,
+                                   const std::array<Lanes, Sum::carried>& of_i, std::size_t cluster,
+                                   const space::ImageShift<D>& shift, Given<Sum>& at_i,
+                                   std::array<Lanes, Sum::totals>& totals) {
   const std::size_t at = cluster * lane_count;
   Pair<D, Sum::carried> pair;
   pair.displacement = apart.displacement;
@@ -114,9 +114,8 @@ template <int D, class Sum>
 
 /// The pairs of a cluster's own eight that are `turn` lanes apart: lane l with lane l + turn, each pair once.
 template <int turn, int D, class Sum>
-[[gnu::always_inline]] inline void pair_within_cluster(const Pass<D, Sum>& pass, const Sum& sum,
-                                                       const Lanes& range_squared, const Lanes& once,
-                                                       std::size_t cluster, std::array<Lanes, Sum::totals>& totals) {
+LUCY_INLINE void pair_within_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Lanes& range_squared,
+                                     const Lanes& once, std::size_t cluster, std::array<Lanes, Sum::totals>& totals) {
   const std::size_t at = cluster * lane_count;
   Pair<D, Sum::carried> pair;
   unrolled<D>([&](auto d) {
@@ -140,8 +139,8 @@ template <int turn, int D, class Sum>
 }
 
 template <int D, class Sum>
-[[gnu::flatten]] Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const ImageTable<D>& images,
-                                            double range, const Pass<D, Sum> pass, const Sum sum) {
+LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const ImageTable<D>& images,
+                                           double range, const Pass<D, Sum> pass, const Sum sum) {
   const Lanes range_squared = range * range;
   std::array<double, lane_count> upper_half{};  // range squared in lanes 4 to 7
   std::fill(upper_half.begin() + lane_count / 2, upper_half.end(), range * range);

@@ -27,8 +27,8 @@ struct DensitySum {
 
   Kernel kernel;
 
-  [[gnu::always_inline]] void operator()(const pairs::Pair<D, 0>& pair, std::array<pairs::Lanes, 1>& to_i,
-                                         std::array<pairs::Lanes, 1>& to_j, std::array<pairs::Lanes, 0>&) const {
+  LUCY_INLINE void operator()(const pairs::Pair<D, 0>& pair, std::array<pairs::Lanes, 1>& to_i,
+                              std::array<pairs::Lanes, 1>& to_j, std::array<pairs::Lanes, 0>&) const {
     to_i[0] = kernel.weight(pair.distance);
     to_j[0] = to_i[0];
   }

@@ -36,8 +36,8 @@ struct GradientSum {
   Kernel kernel;
   double strain_rate = 0.0;
 
-  [[gnu::always_inline]] void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
-                                         std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, 0>&) const {
+  LUCY_INLINE void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
+                              std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, 0>&) const {
     const pairs::Lanes slope = kernel.slope(pair.distance);
     pairs::Lanes factor;
     if constexpr (mean == DensityMean::geometric) {

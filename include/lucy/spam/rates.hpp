@@ -43,9 +43,8 @@ struct RateSum {
   Kernel kernel;
   double strain_rate = 0.0;
 
-  [[gnu::always_inline]] void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
-                                         std::array<pairs::Lanes, given>& to_j,
-                                         std::array<pairs::Lanes, totals>& sums) const {
+  LUCY_INLINE void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
+                              std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, totals>& sums) const {
     const pairs::Lanes slope = kernel.slope(pair.distance);
     std::array<pairs::Lanes, D> along;  // -grad_i w
     pairs::unrolled<D>([&](auto b) { along[b] = slope * pair.displacement[b]; });
