@@ -75,7 +75,8 @@ struct GreenKuboRun::Implementation {
         samples_of_block(block_samples(settings)),
         samples_of_last_block(recorded_samples(settings) - (blocks - 1) * samples_of_block),
         heat_flux(needs_heat_flux(settings)),
-        wanted_of_samples(names_in_pairs(settings, "potential_energy") ? pairs::Wanted::everything : pairs::Wanted::stress),
+        wanted_of_samples(names_in_pairs(settings, "potential_energy") ? pairs::Wanted::everything
+                                                                       : pairs::Wanted::stress),
         correlators(settings) {
     const double preparation = preparation_time(point);
     preparation_steps = cases::preparation_steps(point);

@@ -49,9 +49,9 @@ duration = 1000
 std::string fingerprint(const GreenKuboInput& input) {
   std::string text = input.title;
   for (const auto& p : input.points) {
-    text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", p.particles, p.dimension, static_cast<int>(p.reading), p.kernel,
-                        static_cast<int>(p.integrator), p.replicas, p.seed, static_cast<int>(p.method), p.diffusion,
-                        p.thermal_conductivity, fmt::join(p.pairs, "|"), p.series);
+    text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", p.particles, p.dimension, static_cast<int>(p.reading),
+                        p.kernel, static_cast<int>(p.integrator), p.replicas, p.seed, static_cast<int>(p.method),
+                        p.diffusion, p.thermal_conductivity, fmt::join(p.pairs, "|"), p.series);
     for (const double value :
          {p.energy_per_particle, p.density, p.range, p.step, p.preparation, p.equilibration, p.duration,
           p.energy_tolerance, p.energy_band, p.length, p.cutoff, p.sample_interval, p.frame_interval})
