@@ -33,9 +33,10 @@ motion::FluidStart<2> fluid_start(const FluidSettings& settings, std::uint64_t s
   start.lengths = {static_cast<double>(sites[0]) * spacing, static_cast<double>(sites[1]) * spacing};
   start.position.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto column = static_cast<double>(static_cast<std::int64_t>(i) % sites[0]);
-    const auto row = static_cast<double>(static_cast<std::int64_t>(i) / sites[0]);
-    start.position[i] = {(column + 0.5 + offset(generator)) * spacing, (row + 0.5 + offset(generator)) * spacing};
+    const std::int64_t column = static_cast<std::int64_t>(i) % sites[0];
+    const std::int64_t row = static_cast<std::int64_t>(i) / sites[0];
+    start.position[i] = {(static_cast<double>(column) + 0.5 + offset(generator)) * spacing,
+                         (static_cast<double>(row) + 0.5 + offset(generator)) * spacing};
   }
   start.velocity.assign(count, {});
   if (settings.noise > 0.0) {

@@ -263,7 +263,7 @@ void conclude(const DecayingWave& wave, WaveRow& row) {
         "run.duration.",
         100.0 * least));
   } else if (std::isnan(row.estimates[wave_quantity("integral")].value)) {
-    row.warnings.push_back(
+    row.warnings.emplace_back(
         "There is no value by the integral: the wave rings to the end of the record, or its decay is lost in noise.");
   }
   if (wave.replicas() < 2) row.status = RowStatus::too_short;

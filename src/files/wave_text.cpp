@@ -72,7 +72,7 @@ std::string atoms_text(const WavePoint& p) {
 
 std::string amplitude_text(const WavePoint& p) { return "A = " + format_plain(p.amplitude); }
 
-std::string known_or_blank(std::string cell) { return cell == "nan" ? std::string() : cell; }
+std::string known_or_blank(const std::string& cell) { return cell == "nan" ? std::string() : cell; }
 
 struct Column {
   std::string header;
