@@ -256,7 +256,13 @@ WaveRow empty_row(const WavePoint& point) {
 void conclude(const DecayingWave& wave, WaveRow& row) {
   const Numbers mean = wave.mean();
   const double least = *std::ranges::min_element(mean) / mean.front();
-  if (!(least < well_begun)) {
+  if (wave.replicas() < 2) row.status = RowStatus::too_short;
+  if (!(mean.front() > 0.0)) {
+    row.status = RowStatus::too_short;
+    row.warnings.emplace_back(
+        "The wave is lost in the noise of the particles from the start: use a larger wave.amplitude, or more of "
+        "run.replicas.");
+  } else if (!(least < well_begun)) {
     row.status = RowStatus::too_short;
     row.warnings.push_back(fmt::format(
         "The amplitude fell to {:.0f} % of its start and no further: how it decays cannot be told; lengthen "
@@ -266,7 +272,6 @@ void conclude(const DecayingWave& wave, WaveRow& row) {
     row.warnings.emplace_back(
         "There is no value by the integral: the wave rings to the end of the record, or its decay is lost in noise.");
   }
-  if (wave.replicas() < 2) row.status = RowStatus::too_short;
 }
 
 }  // namespace

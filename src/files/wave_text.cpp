@@ -132,7 +132,8 @@ std::string explanation(std::span<const WaveRow> rows, WaveQuantity quantity) {
   std::string text = wrapped(
       "",
       std::string("Reduced units. In parentheses one standard error, in units of the last digits: the scatter over "
-                  "replicas, by the jackknife, with Student's factor below ten degrees of freedom. All values are ") +
+                  "replicas, by the jackknife, with Student's factor below ten degrees of freedom. Blank: not known, "
+                  "or without a meaning. All values are ") +
           (shear ? "kinematic viscosities nu but stresses, moduli and times."
                  : "thermal diffusivities kappa/(rho c_P) but times."));
   text += wrapped("by parts: ", fmt::format("what the amplitude a(t) lost up to the time in the last column, in units "
@@ -207,12 +208,13 @@ std::string format_waves(std::span<const WaveRow> rows) {
                         estimate("operator", wave_quantity("operator")), estimate(rest, wave_quantity("rest")),
                         estimate("carried", wave_quantity("carried")), plain("up to", &WaveRow::parts_until)},
                        LastColumn::numbers);
-    const Column over_pressure = {"/ pressure", [](const WaveRow& row) {
-                                    if (row.preferred != DecayForm::yielding) return std::string();
-                                    const auto& stress = row.estimates[wave_quantity("yield_stress")];
-                                    const double pressure = row.estimates[wave_quantity("pressure")].value;
-                                    return format_with_error(stress.value / pressure, stress.error / pressure);
-                                  }};
+    const Column over_pressure = {
+        "/ pressure", [](const WaveRow& row) {
+          if (row.preferred != DecayForm::yielding) return std::string();
+          const auto& stress = row.estimates[wave_quantity("yield_stress")];
+          const double pressure = row.estimates[wave_quantity("pressure")].value;
+          return known_or_blank(format_with_error(stress.value / pressure, stress.error / pressure));
+        }};
     text += "\nThe preferred form:\n" +
             table_text(rows,
                        {estimate("fitted", wave_quantity("fitted")),

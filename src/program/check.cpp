@@ -230,8 +230,8 @@ Planned planned(const cases::WavePoint& point) {
   cases::WavePoint measurable = point;
   measurable.equilibration = 0.0;
   measurable.sample_interval = static_cast<double>(steps) * point.step;
-  measurable.frame_interval =
-      static_cast<double>(most_steps / steps) * measurable.sample_interval;  // no interval is longer
+  const std::int64_t most_samples = most_steps / steps;  // no interval is longer
+  measurable.frame_interval = static_cast<double>(most_samples) * measurable.sample_interval;
   measurable.duration = 1e6 * measurable.sample_interval;
   measurable.particles = std::min(point.particles, most_particles);
   return {std::make_unique<WaveStatePoint>(point, "", files::H5mdAuthorship{}),

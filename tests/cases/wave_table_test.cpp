@@ -199,6 +199,18 @@ TEST(WaveTable, AWaveThatHardlyDecaysIsShort) {
   EXPECT_TRUE(std::isnan(of(row, wave_quantity("operator_factor")).value)) << "nothing is prescribed";
 }
 
+TEST(WaveTable, AWaveThatIsLostInNoiseFromTheStartIsShort) {
+  const WavePoint point = point_of();
+  auto records = records_of(
+      point, [](double time) { return 0.05 * std::exp(-0.01 * time); }, 4, 1e-5);
+  for (WaveRecord& record : records)
+    for (WaveSample& sample : record.samples) sample.amplitude -= 0.06;
+  const WaveRow row = summarize(point, records).row;
+  EXPECT_EQ(row.status, RowStatus::too_short);
+  ASSERT_EQ(row.warnings.size(), 1u);
+  EXPECT_NE(row.warnings[0].find("lost in the noise"), std::string::npos) << row.warnings[0];
+}
+
 TEST(WaveTable, AFailedPointHasItsSettingsAndItsReason) {
   const WavePoint point = point_of();
   const WaveRow row = failed_row(point, "it was too hot");
