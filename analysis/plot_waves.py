@@ -159,7 +159,7 @@ def band(axes, x, value, error, colour, **style):
 
 def draw_amplitudes_panel(axes, name, group, base, kind):
     end = 0.0
-    prescribed = {point.values["prescribed"] for point in group if math.isfinite(point.values["prescribed"])}
+    laws = {}
     for point, colour in zip(group, colours_of(len(group))):
         values = point.values
         x = values["wave_vector"]**2 * point.curve["time"]
@@ -173,12 +173,16 @@ def draw_amplitudes_panel(axes, name, group, base, kind):
         band(axes, x, amplitude, scale * point.curve["amplitude_error"], colour, zorder=2)
         axes.plot(x, amplitude, color=colour, linewidth=1.3, zorder=3, label=label)
         axes.plot(x, scale * point.curve["fit"], color=colour, linewidth=0.6, linestyle="--", zorder=4)
-        if values["prescribed"] > 0 and (len(prescribed) > 1 or point is group[0]):
-            axes.plot(x, np.exp(-values["prescribed"] * x), color=colour if len(prescribed) > 1 else "0.35",
-                      linewidth=0.9, linestyle=":", zorder=1)
+        if values["prescribed"] >= 0:
+            laws[values["prescribed"]] = colour
     axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
-    longest = max(point.values["wave_vector"]**2 * point.curve["time"][-1] for point in group)
-    axes.set_xlim(0, min(end, longest))
+    end = min(end, max(point.values["wave_vector"]**2 * point.curve["time"][-1] for point in group))
+    x = np.linspace(0, end, 100)
+    for law, colour in laws.items():
+        if law > 0:
+            axes.plot(x, np.exp(-law * x), color=colour if len(laws) > 1 else "0.35", linewidth=0.9, linestyle=":",
+                      zorder=1)
+    axes.set_xlim(0, end)
     axes.set_ylim(-0.12, 1.08)
     axes.tick_params(which="both", direction="in", top=True, right=True)
     axes.legend(fontsize=7.5, frameon=False, handlelength=1.4, labelspacing=0.25, borderaxespad=0.3)
@@ -217,9 +221,8 @@ def draw_amplitudes(points, kind):
     return figure
 
 
-def draw_parts(axes, points, kind):
+def draw_parts(axes, points, base, kind):
     """Stacked bars, negative parts to the left; a mark is the total, a line the constitutive law."""
-    base = points[0]
     for place, point in enumerate(points):
         ends = {-1: 0.0, 1: 0.0}
         for name, colour in (("operator", OPERATOR), (kind["rest"], REST), ("carried", CARRIED)):
@@ -240,13 +243,11 @@ def draw_parts(axes, points, kind):
                                          for point in points], fontsize=8)
     axes.set_ylim(len(points) - 0.4, -0.6)
     axes.axvline(0, color="0.6", linewidth=0.6, zorder=1)
-    linear = 2.0 * max((p.values["prescribed"] for p in points if math.isfinite(p.values["prescribed"])), default=1.0)
-    largest = max((abs(p.values["total"]) for p in points if math.isfinite(p.values["total"])), default=1.0)
-    if linear > 0 and largest > 2 * linear:  # atoms far off the scale of the fluids
-        axes.set_xscale("symlog", linthresh=linear, linscale=3)
     axes.tick_params(which="both", direction="in", top=True)
     axes.tick_params(axis="y", length=0)
-    axes.set_xlabel(f"{kind['name']}  ${kind['symbol']}$   [{DIFFUSIVITY_UNIT}]")
+
+
+def add_legend_of_parts(axes, kind):
     handles = [matplotlib.patches.Patch(facecolor=colour, linewidth=0) for colour in (OPERATOR, REST, CARRIED)]
     handles += [matplotlib.lines.Line2D([], [], color=TOTAL, marker="o", markersize=3, linestyle="none"),
                 matplotlib.lines.Line2D([], [], color="0.25", linewidth=1.4, marker="|", linestyle="none",
@@ -345,7 +346,14 @@ def draw_summary(points, kind, green_kubo):
     height = max(2.9 * panels + 0.4, 0.2 * len(points) + 1.1)
     figure = plt.figure(figsize=(11.2, height), layout="constrained")
     grid = figure.add_gridspec(panels, 2, width_ratios=(1.25, 1))
-    draw_parts(figure.add_subplot(grid[:, 0]), points, kind)
+    # Atoms have a scale of their own.
+    kinds = [some for some in ([p for p in points if not p.atoms], [p for p in points if p.atoms]) if some]
+    places = grid[:, 0].subgridspec(len(kinds), 1, height_ratios=[len(some) + 0.2 for some in kinds])
+    bars = [figure.add_subplot(places[index]) for index in range(len(kinds))]
+    for axes, some in zip(bars, kinds):
+        draw_parts(axes, some, points[0], kind)
+    add_legend_of_parts(bars[0], kind)
+    bars[-1].set_xlabel(f"{kind['name']}  ${kind['symbol']}$   [{DIFFUSIVITY_UNIT}]")
     colours = colours_by_law(points)
     by_gradient, by_noise = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
     draw_local(by_gradient, points, kind, "gradient", colours)

@@ -144,8 +144,8 @@ class WavePictures(unittest.TestCase):
                    [[1, 1024, 13.5, 0.4], [2, 1024, 40, 1]])
         self.assertEqual(self.draw("--green-kubo", self.folder), "")
         texts = self.texts("shear_wave")
-        for label in ("as stated", r"$\eta = 0.1$", "$h = 5$", "monaghan", "disorder 0.1",
-                      "atoms, $E/N = 1$, $N = 4096$", "atoms, $E/N = 1$, $N = 1024$, mode 2", "pressure forces", "with a yield stress", "others",
+        for label in ("as stated", r"$\eta = 0.1$", "$h = 5$", "monaghan", "disorder 0.1", "pressure forces", "others",
+                      "atoms, $E/N = 1$, $N = 4096$", "atoms, $E/N = 1$, $N = 1024$, mode 2", "with a yield stress",
                       "$E/N = 1$, Green-Kubo", "$E/N = 0.5$, waves"):
             self.assertEqual(texts.count(label), 1, label)
         self.assertNotIn("$E/N = 0.5$, Green-Kubo", texts)
