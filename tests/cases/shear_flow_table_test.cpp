@@ -43,12 +43,12 @@ ShearFlowSample plain_sample() {
 /// White noise of that size on the stress that particles carry.
 ShearFlowRecord record(double noise, unsigned seed, std::size_t samples = 400) {
   std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal(0.0, noise);
+  std::normal_distribution<double> normal;
   ShearFlowRecord result;
   result.sample_interval = 1.0;
   for (std::size_t i = 0; i < samples; ++i) {
     result.samples.push_back(plain_sample());
-    if (noise > 0.0) result.samples.back().averages[shear_flow_average("pxy_carried")] += normal(generator);
+    result.samples.back().averages[shear_flow_average("pxy_carried")] += noise * normal(generator);
   }
   result.steps = static_cast<std::int64_t>(samples);
   return result;

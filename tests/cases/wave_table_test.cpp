@@ -37,7 +37,7 @@ WavePoint point_of(WaveQuantity quantity = WaveQuantity::shear) {
 std::vector<WaveRecord> records_of(const WavePoint& point, const std::function<double(double)>& curve, int replicas,
                                    double noise) {
   std::mt19937_64 generator(7);
-  std::normal_distribution<double> normal(0.0, noise);
+  std::normal_distribution<double> normal;
   const WaveSchedule schedule = wave_schedule(point);
   std::vector<WaveRecord> records;
   for (int r = 0; r < replicas; ++r) {
@@ -50,7 +50,7 @@ std::vector<WaveRecord> records_of(const WavePoint& point, const std::function<d
       const double time = static_cast<double>(i) * record.sample_interval;
       const double rate = (curve(time + 1e-4) - curve(std::max(0.0, time - 1e-4))) / (time > 0.0 ? 2e-4 : 1e-4);
       WaveSample& sample = record.samples.emplace_back();
-      sample.amplitude = curve(time) + normal(generator);
+      sample.amplitude = curve(time) + noise * normal(generator);
       sample.parts = {0.7 * rate, 0.2 * rate, 0.1 * rate};
       sample.particle_noise = 0.01 * std::exp(-time / 100.0);
       sample.pressure = 1.1;

@@ -61,7 +61,7 @@ TEST(GradientConvergence, HasAFloorAtAFixedRangeOverTheSpacing) {
 }
 
 // More particles, each with more partners: h grows as the fourth root of N, L/h as much.
-TEST(GradientConvergence, FallsWhenRangeOverSpacingGrowsWithTheNumberOfParticles) {
+TEST(GradientConvergenceLong, FallsWhenRangeOverSpacingGrowsWithTheNumberOfParticles) {
   for (const auto weight : both_weights) {
     for (const double offset : {0.0, 0.1, 0.3}) {
       double before = 1.0;
