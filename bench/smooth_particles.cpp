@@ -34,11 +34,13 @@ void isentropic(benchmark::State& state) {
   Sorted sorted(state.range(0));
   const lucy::kernel::Lucy<2> kernel(3.0);
   lucy::space::Columns fluid(2, sorted.list.capacity());
+  lucy::pairs::KeptPairs slopes;
   const auto images = lucy::pairs::image_table(sorted.box, 0.0);
   for (auto _ : state) {
-    auto totals = lucy::spam::isentropic_forces<2>(
-        kernel, lucy::spam::Isentropic(), sorted.list, images, {sorted.columns[0], sorted.columns[1]},
-        {sorted.columns[4], sorted.columns[5]}, fluid[0], fluid[1], lucy::pairs::Wanted::shear_stress, lucy::Team(1));
+    auto totals =
+        lucy::spam::isentropic_forces<2>(kernel, lucy::spam::Isentropic(), sorted.list, images,
+                                         {sorted.columns[0], sorted.columns[1]}, {sorted.columns[4], sorted.columns[5]},
+                                         fluid[0], fluid[1], slopes, lucy::pairs::Wanted::shear_stress, lucy::Team(1));
     benchmark::DoNotOptimize(totals);
   }
   count_particles(state);

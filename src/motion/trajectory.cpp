@@ -81,7 +81,7 @@ void Trajectory<D>::evaluate(const Phase<sllod_numbers>& at, double age, pairs::
     pair_totals_ = md::lucy_forces<D>(kernel_, near_.list(), images, pointers<D>(at.columns, 0), force, wanted, team_);
   } else {
     pair_totals_ = spam::isentropic_forces<D>(kernel_, fluid_, near_.list(), images, pointers<D>(at.columns, 0), force,
-                                              density_[0], specific_pressure_[0], wanted, team_);
+                                              density_[0], specific_pressure_[0], slopes_, wanted, team_);
   }
   kinetic_ = measure::kinetic_sums<D>(pointers<D>(at.columns, D), pointers<D>(force_, 0), near_.slots(), team_);
   friction_ = sllod_friction(shear_, kinetic_, pair_totals_.virial(0, 1), at.numbers[nose_hoover_friction]);

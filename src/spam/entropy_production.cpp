@@ -11,6 +11,17 @@
 
 namespace lucy::spam {
 
+namespace {
+
+/// Pointers to `count` columns from `first` on, behind `begin` others.
+template <std::size_t size>
+void append(std::array<const double*, size>& to, std::size_t begin, const space::Columns& columns, int first,
+            int count) {
+  for (int c = 0; c < count; ++c) to[begin + static_cast<std::size_t>(c)] = columns[first + c];
+}
+
+}  // namespace
+
 template <int D>
 space::Columns SmoothParticles<D>::entropy_production(const Particles<D>& particles, const Team& team) const {
   if (!has_temperature(fluid_.state)) throw BadInput("an isentropic fluid produces no entropy: it has no temperature");
@@ -24,7 +35,9 @@ space::Columns SmoothParticles<D>::entropy_production(const Particles<D>& partic
   for (std::size_t i = 0; i < slots; ++i) {
     if (particles.number[i] == pairs::nobody) continue;
     const double square = density_[0][i] * density_[0][i];
-    const auto stress = viscous_stress<D>(fluid_.transport, gradients_, i);
+    std::array<double, D * D> gradient;
+    for (int c = 0; c < D * D; ++c) gradient[c] = gradients_[c][i];
+    const auto stress = viscous_stress<D>(fluid_.transport, gradient);
     for (int c = 0; c < triangle<D>; ++c) viscous[c][i] = stress[c] / square;
     for (int a = 0; a < D; ++a) flux[a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] / square;
     coldness[0][i] = 1.0 / temperature_[0][i];

@@ -4,40 +4,45 @@
 // What the three passes and what lies between them have in common.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "lucy/space/columns.hpp"
 #include "lucy/spam/fluid.hpp"
+#include "lucy/team.hpp"
 
 namespace lucy::spam {
-
-/// Pointers to `count` columns from `first` on, behind `begin` others.
-template <std::size_t size>
-void append(std::array<const double*, size>& to, std::size_t begin, const space::Columns& columns, int first,
-            int count) {
-  for (int c = 0; c < count; ++c) to[begin + static_cast<std::size_t>(c)] = columns[first + c];
-}
 
 /// Components of a symmetric tensor.
 template <int D>
 constexpr int triangle = D*(D + 1) / 2;
 
-/// Newton's law without P_eq: the viscous stress of the particle at slot i, lower triangle by rows.
-template <int D>
-std::array<double, triangle<D>> viscous_stress(const Transport& transport, const space::Columns& gradients,
-                                               std::size_t i) {
-  double divergence = 0.0;
-  for (int a = 0; a < D; ++a) divergence += gradients[a * D + a][i];
-  const double spherical = (transport.bulk_viscosity - 2.0 / D * transport.viscosity) * divergence;
-  std::array<double, triangle<D>> stress;
+/// Newton's law without P_eq: the viscous stress, lower triangle by rows, where d v_a/d x_b is gradient[a D + b]. T is
+/// double or Lanes.
+template <int D, class T>
+std::array<T, triangle<D>> viscous_stress(const Transport& transport, const std::array<T, D * D>& gradient) {
+  T divergence = 0.0;
+  for (int a = 0; a < D; ++a) divergence += gradient[a * D + a];
+  const T spherical = (transport.bulk_viscosity - 2.0 / D * transport.viscosity) * divergence;
+  std::array<T, triangle<D>> stress;
   for (int a = 0; a < D; ++a) {
     for (int b = 0; b <= a; ++b) {
-      const double shear = -transport.viscosity * (gradients[a * D + b][i] + gradients[b * D + a][i]);
+      const T shear = -transport.viscosity * (gradient[a * D + b] + gradient[b * D + a]);
       stress[a * (a + 1) / 2 + b] = a == b ? shear - spherical : shear;
     }
   }
   return stress;
+}
+
+/// work(cluster) for every cluster, shared in chunks.
+template <class Work>
+void for_clusters(std::size_t clusters, const Team& team, const Work& work) {
+  constexpr std::size_t chunk = 64;
+  team.share(static_cast<std::ptrdiff_t>((clusters + chunk - 1) / chunk), [&](std::ptrdiff_t part) {
+    const std::size_t begin = static_cast<std::size_t>(part) * chunk;
+    const std::size_t end = std::min(begin + chunk, clusters);
+    for (std::size_t cluster = begin; cluster < end; ++cluster) work(cluster);
+  });
 }
 
 }  // namespace lucy::spam

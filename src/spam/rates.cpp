@@ -26,11 +26,12 @@ void SmoothParticles<D>::find_rates(const Particles<D>& particles, const Team& t
     pairs::Pass<D, Sum> columns;
     columns.position = particles.position;
     std::copy_n(particles.velocity.begin(), D, columns.carried.begin());
-    append(columns.carried, D, stress_, 0, Sum::stresses + Sum::fluxes);
+    for (int c = 0; c < Sum::stresses + Sum::fluxes; ++c) columns.carried[D + c] = stress_[c];
     for (int d = 0; d < D; ++d) columns.given[d] = acceleration_[d];
     columns.given[D] = energy_rate_[0];
-    virial_xy_ = pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns,
-                                    Sum{kernel, particles.strain_rate}, team)[0];
+    const auto totals = pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns,
+                                           Sum{kernel, particles.strain_rate}, team, &slopes_);
+    virial_xy_ = totals[0];
   };
   std::visit(
       [&](const auto& kernel) {

@@ -14,22 +14,7 @@
 
 namespace lucy::spam {
 
-namespace {
-
-constexpr std::size_t chunk_slots = 512;
-
-/// work(slot) for every slot, shared in chunks.
-template <class Work>
-void for_slots(std::size_t slots, const Team& team, const Work& work) {
-  const auto chunks = static_cast<std::ptrdiff_t>((slots + chunk_slots - 1) / chunk_slots);
-  team.share(chunks, [&](std::ptrdiff_t chunk) {
-    const std::size_t begin = static_cast<std::size_t>(chunk) * chunk_slots;
-    const std::size_t end = std::min(begin + chunk_slots, slots);
-    for (std::size_t slot = begin; slot < end; ++slot) work(slot);
-  });
-}
-
-}  // namespace
+using pairs::Lanes;
 
 template <int D>
 void Fluid<D>::validate() const {
@@ -61,14 +46,14 @@ SmoothParticles<D>::SmoothParticles(const Fluid<D>& fluid, std::size_t slots)
       energy_rate_(1, slots) {
   fluid.validate();
   const bool plain = fluid.transport.none();
-  mean_factor_ = space::Columns(plain ? 0 : 1, slots);
   gradients_ = space::Columns(plain ? 0 : D * D + D, slots);
+  mean_factor_ = space::Columns(plain ? 0 : 1, slots);
   stress_ = space::Columns(plain ? 1 : triangle<D> + D, slots);
 }
 
 template <int D>
 void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& team) {
-  densities<D>(fluid_.weight, particles.list, particles.images, particles.position, density_[0], team);
+  densities<D>(fluid_.weight, particles.list, particles.images, particles.position, density_[0], slopes_, team);
   apply_equation_of_state(particles, team);
   if (!fluid_.transport.none()) {
     find_gradients(particles, team);
@@ -79,44 +64,56 @@ void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& tea
 
 template <int D>
 void SmoothParticles<D>::apply_equation_of_state(const Particles<D>& particles, const Team& team) {
-  const double* const rho = density_[0];
-  const double* const e = particles.energy;
-  double* const pressure = pressure_[0];
-  double* const temperature = temperature_[0];
   std::visit(
       [&](const auto& state) {
-        for_slots(particles.list.slots(), team, [&](std::size_t i) {
-          pressure[i] = state.pressure(rho[i], e[i]);
-          temperature[i] = state.temperature(rho[i], e[i]);
+        for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
+          const std::size_t first = cluster * pairs::lane_count;
+          const double* const rho = density_[0] + first;
+          const double* const e = particles.energy + first;
+          double* const pressure = pressure_[0] + first;
+          double* const temperature = temperature_[0] + first;
+          for (std::size_t lane = 0; lane < pairs::lane_count; ++lane) {
+            pressure[lane] = state.pressure(rho[lane], e[lane]);
+            temperature[lane] = state.temperature(rho[lane], e[lane]);
+          }
         });
       },
       fluid_.state);
-  if (fluid_.transport.none()) {
-    double* const specific = stress_[0];
-    for_slots(particles.list.slots(), team, [&](std::size_t i) { specific[i] = pressure[i] / (rho[i] * rho[i]); });
-  } else if (fluid_.mean == DensityMean::geometric) {
-    double* const factor = mean_factor_[0];
-    for_slots(particles.list.slots(), team, [&](std::size_t i) { factor[i] = 1.0 / std::sqrt(rho[i]); });
-  } else {
-    std::copy_n(rho, particles.list.slots(), mean_factor_[0]);
-  }
+  const bool plain = fluid_.transport.none();
+  const bool geometric = fluid_.mean == DensityMean::geometric;
+  for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
+    const std::size_t first = cluster * pairs::lane_count;
+    const Lanes rho = pairs::load(density_[0] + first);
+    if (plain) {
+      pairs::store(stress_[0] + first, pairs::load(pressure_[0] + first) / (rho * rho));
+    } else {
+      pairs::store(mean_factor_[0] + first, geometric ? 1.0 / sqrt(rho) : rho);
+    }
+  });
 }
 
 template <int D>
 void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Team& team) {
-  const double* const rho = density_[0];
-  const double* const pressure = pressure_[0];
-  for_slots(particles.list.slots(), team, [&](std::size_t i) {
-    const double square = rho[i] * rho[i];
-    const double per_square = 1.0 / square;
-    const auto viscous = viscous_stress<D>(fluid_.transport, gradients_, i);
+  for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
+    const std::size_t first = cluster * pairs::lane_count;
+    std::array<Lanes, D * D> gradient;
+    for (int c = 0; c < D * D; ++c) {
+      gradient[c] = pairs::load(gradients_[c] + first);
+    }
+    const Lanes rho = pairs::load(density_[0] + first);
+    const Lanes square = rho * rho;
+    const Lanes per_square = 1.0 / square;
+    const Lanes specific =
+        pairs::load(pressure_[0] + first) / square;  // a division: exactly 1/2 for the isentropic fluid
+    const auto viscous = viscous_stress<D>(fluid_.transport, gradient);
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b <= a; ++b) {
         const int at = a * (a + 1) / 2 + b;
-        stress_[at][i] = viscous[at] * per_square;
-        if (a == b) stress_[at][i] += pressure[i] / square;  // a division: exactly 1/2 for the isentropic fluid
+        const Lanes stress = viscous[at] * per_square;
+        pairs::store(stress_[at] + first, a == b ? stress + specific : stress);
       }
-      stress_[triangle<D> + a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] * per_square;
+      const Lanes along = pairs::load(gradients_[D * D + a] + first);
+      pairs::store(stress_[triangle<D> + a] + first, -fluid_.transport.conductivity * along * per_square);
     }
   });
 }

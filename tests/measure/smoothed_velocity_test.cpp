@@ -35,7 +35,8 @@ struct Smoothed {
     const auto position = Arranged<D>::pointers(arranged.position);
     std::array<double*, D> smoothed;
     for (int d = 0; d < D; ++d) smoothed[d] = velocity[d];
-    spam::densities<D>(kernel, arranged.list, images, position, density[0], team);
+    pairs::KeptPairs slopes;
+    spam::densities<D>(kernel, arranged.list, images, position, density[0], slopes, team);
     smoothed_velocities<D>(kernel, arranged.list, images, position, Arranged<D>::pointers(arranged.velocity),
                            density[0], smoothed, team);
   }

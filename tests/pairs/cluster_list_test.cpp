@@ -26,6 +26,7 @@ struct ProbeSum {
   static constexpr int lab_velocity = 0;
   static constexpr int given = 2 + D;
   static constexpr int totals = 2;
+  static constexpr Keeping keeping = Keeping::nothing;
   double range;
 
   void operator()(const Pair<D, D>& pair, std::array<Lanes, given>& to_i, std::array<Lanes, given>& to_j,

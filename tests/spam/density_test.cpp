@@ -24,8 +24,9 @@ std::vector<double> densities_of(const kernel::Weight<D>& weight, const Crowd<D>
   Arranged<D> arranged(crowd);
   arranged.build(crowd, kernel::range_of<D>(weight), 0.0, 0.0, team);
   space::Columns density(1, arranged.list.capacity());
+  pairs::KeptPairs slopes;
   densities<D>(weight, arranged.list, pairs::image_table(crowd.box, 0.0), Arranged<D>::pointers(arranged.position),
-               density[0], team);
+               density[0], slopes, team);
   std::vector<double> by_particle(crowd.position.size());
   for (std::size_t slot = 0; slot < arranged.number.size(); ++slot) {
     const auto number = arranged.number[slot];

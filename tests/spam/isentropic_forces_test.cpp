@@ -37,9 +37,10 @@ struct Fluid {
   Fluid(const Crowd<D>& crowd, const Isentropic& state, const Team& team = Team(1))
       : arranged(crowd), force(D, arranged.list.capacity()), fluid(2, arranged.list.capacity()) {
     arranged.build(crowd, range, 0.0, 0.0);
+    pairs::KeptPairs slopes;
     totals = isentropic_forces<D>(kernel::Lucy<D>(range), state, arranged.list, pairs::image_table(crowd.box, 0.0),
                                   Arranged<D>::pointers(arranged.position), columns_of(force), fluid[0], fluid[1],
-                                  pairs::Wanted::everything, team);
+                                  slopes, pairs::Wanted::everything, team);
   }
 
   static std::array<double*, D> columns_of(space::Columns& columns) {

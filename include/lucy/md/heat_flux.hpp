@@ -26,6 +26,7 @@ struct PairHeatFlux {
   static constexpr int lab_velocity = 0;
   static constexpr int given = 0;
   static constexpr int totals = 2 * D;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::nothing;
 
   kernel::Lucy<D> kernel;
 
@@ -37,12 +38,12 @@ struct PairHeatFlux {
     pairs::Lanes along = 0.0;  // r_ij . (v_i + v_j)/2
     for (int d = 0; d < D; ++d) {
       mean_velocity[d] = 0.5 * (pair.of_i[d] + pair.of_j[d]);
-      along = fma(pair.displacement[d], mean_velocity[d], along);
+      along = pairs::multiply_add(pair.displacement[d], mean_velocity[d], along);
     }
     const pairs::Lanes power = slope * along;
     pairs::unrolled<D>([&](auto d) {
-      sums[d] = fma(phi, mean_velocity[d], sums[d]);
-      sums[D + d] = fma(pair.displacement[d], power, sums[D + d]);
+      sums[d] = pairs::multiply_add(phi, mean_velocity[d], sums[d]);
+      sums[D + d] = pairs::multiply_add(pair.displacement[d], power, sums[D + d]);
     });
   }
 };

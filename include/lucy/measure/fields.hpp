@@ -68,6 +68,7 @@ struct MomentSum {
   static constexpr int lab_velocity = -1;
   static constexpr int given = Moments<D>::count;
   static constexpr int totals = 0;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::nothing;
   static constexpr int gradient_axis = D > 1 ? 1 : 0;  // y; in one dimension nothing is sheared
 
   Kernel kernel;

@@ -28,6 +28,7 @@ struct WeightedVelocitySum {
   static constexpr int lab_velocity = -1;
   static constexpr int given = D;
   static constexpr int totals = 0;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::nothing;
 
   kernel::Lucy<D> kernel;
 

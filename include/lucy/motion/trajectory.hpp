@@ -113,9 +113,10 @@ class Trajectory {
 
   Phase<sllod_numbers> now_;
   Phase<sllod_numbers> next_;
-  space::Columns sum_;      // scratch of the integrator
-  space::Columns force_;    // at `now_`, between steps
-  space::Columns density_;  // of smooth particles only, and their P/rho^2
+  space::Columns sum_;       // scratch of the integrator
+  space::Columns force_;     // at `now_`, between steps
+  pairs::KeptPairs slopes_;  // of one evaluation, from pass to pass
+  space::Columns density_;   // of smooth particles only, and their P/rho^2
   space::Columns specific_pressure_;
   double time_ = 0.0;
 

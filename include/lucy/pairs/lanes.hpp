@@ -11,6 +11,10 @@
 #include <experimental/simd>
 #include <type_traits>
 
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
+
 // No call is left in the pair loop, for which registers would have to be saved. With the sanitizers' checks in it, it
 // would be too large to compile so.
 #ifdef __SANITIZE_ADDRESS__
@@ -31,6 +35,20 @@ using LaneMask = Lanes::mask_type;
 
 inline Lanes load(const double* from) { return Lanes(from, simd::vector_aligned); }
 inline void store(double* to, const Lanes& value) { value.copy_to(to, simd::vector_aligned); }
+
+/// a b + c, rounded once. std::experimental::fma goes lane by lane, and g++ does not always find the vector in that.
+inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
+#if defined(__AVX512F__)
+  return std::bit_cast<Lanes>(
+      _mm512_fmadd_pd(std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b), std::bit_cast<__m512d>(c)));
+#elif defined(__FMA__)
+  using Halves = std::array<__m256d, 2>;
+  const auto x = std::bit_cast<Halves>(a), y = std::bit_cast<Halves>(b), z = std::bit_cast<Halves>(c);
+  return std::bit_cast<Lanes>(Halves{_mm256_fmadd_pd(x[0], y[0], z[0]), _mm256_fmadd_pd(x[1], y[1], z[1])});
+#else
+  return fma(a, b, c);
+#endif
+}
 
 /// Lane l of the result is lane (l + by) mod 8 of `value`.
 template <int by>

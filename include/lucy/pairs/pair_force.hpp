@@ -29,6 +29,7 @@ namespace lucy::pairs {
 /// c_ij of atoms: one in reduced units.
 struct AtomCoefficient {
   static constexpr int carried = 0;
+  static constexpr bool finds_slopes = false;
 
   template <int D>
   double operator()(const Pair<D, carried>&) const {
@@ -36,9 +37,10 @@ struct AtomCoefficient {
   }
 };
 
-/// c_ij of smooth particles of unit mass. They carry P/rho^2.
+/// c_ij of smooth particles of unit mass. They carry P/rho^2, and the pass for their densities left the slopes.
 struct SmoothCoefficient {
   static constexpr int carried = 1;
+  static constexpr bool finds_slopes = true;
 
   template <int D>
   Lanes operator()(const Pair<D, carried>& pair) const {
@@ -65,13 +67,21 @@ struct PairForce {
   static constexpr int given = D;
   static constexpr int virials = D * (D + 1) / 2;
   static constexpr int totals = wanted == Wanted::everything ? virials + 1 : wanted == Wanted::stress ? virials : 1;
+  static constexpr Keeping keeping = Coefficient::finds_slopes && wanted != Wanted::everything
+                                         ? Keeping::finds
+                                         : Keeping::nothing;  // the weight needs the distance
 
   kernel::Lucy<D> kernel;
   Coefficient coefficient{};
 
   LUCY_INLINE void operator()(const Pair<D, carried>& pair, std::array<Lanes, given>& to_i,
                               std::array<Lanes, given>& to_j, std::array<Lanes, totals>& sums) const {
-    const Lanes slope = coefficient(pair) * kernel.slope(pair.distance);
+    Lanes slope = coefficient(pair);
+    if constexpr (keeping == Keeping::finds) {
+      slope *= pair.kept;
+    } else {
+      slope *= kernel.slope(pair.distance);
+    }
     unrolled<D>([&](auto d) {
       to_i[d] = slope * pair.displacement[d];
       to_j[d] = -to_i[d];
@@ -80,12 +90,12 @@ struct PairForce {
       unrolled<D>([&](auto a) {
         unrolled<a + 1>([&](auto b) {
           Lanes& virial = sums[a * (a + 1) / 2 + b];
-          virial = fma(to_i[a], pair.displacement[b], virial);
+          virial = multiply_add(to_i[a], pair.displacement[b], virial);
         });
       });
       if constexpr (wanted == Wanted::everything) sums[virials] += kernel.weight(pair.distance);
     } else if constexpr (D > 1) {
-      sums[0] = fma(to_i[1], pair.displacement[0], sums[0]);
+      sums[0] = multiply_add(to_i[1], pair.displacement[0], sums[0]);
     }
   }
 };
@@ -97,16 +107,17 @@ struct PairTotals {
   Tensor<D> virial = Tensor<D>::Zero();  ///< sum_{i<j} r_ij F_ij, symmetric: V times the potential pressure tensor
 };
 
-/// One pass with either coefficient: overwrites `force` (D columns, slots as the list arranged them).
+/// One pass with either coefficient: overwrites `force` (D columns, slots as the list arranged them). `slopes`: for a
+/// coefficient that finds them.
 template <int D, Wanted wanted, class Coefficient>
 PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const Coefficient& coefficient, const ClusterList<D>& list,
                          const ImageTable<D>& images, const std::array<const double*, D>& position,
                          const std::array<const double*, Coefficient::carried>& carried,
-                         const std::array<double*, D>& force, const Team& team) {
+                         const std::array<double*, D>& force, const Team& team, KeptPairs* slopes = nullptr) {
   using Sum = PairForce<D, wanted, Coefficient>;
   for (double* column : force) std::fill_n(column, list.slots(), 0.0);
   const Pass<D, Sum> pass{position, carried, force};
-  const auto sums = traverse<D>(list, images, kernel.range(), pass, Sum{kernel, coefficient}, team);
+  const auto sums = traverse<D>(list, images, kernel.range(), pass, Sum{kernel, coefficient}, team, slopes);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   PairTotals<D> totals;
   totals.potential_energy = unknown;
@@ -127,9 +138,10 @@ template <int D, class Coefficient>
 PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const Coefficient& coefficient, const ClusterList<D>& list,
                          const ImageTable<D>& images, const std::array<const double*, D>& position,
                          const std::array<const double*, Coefficient::carried>& carried,
-                         const std::array<double*, D>& force, Wanted wanted, const Team& team) {
+                         const std::array<double*, D>& force, Wanted wanted, const Team& team,
+                         KeptPairs* slopes = nullptr) {
   const auto sum = [&]<Wanted w>() {
-    return sum_forces<D, w, Coefficient>(kernel, coefficient, list, images, position, carried, force, team);
+    return sum_forces<D, w, Coefficient>(kernel, coefficient, list, images, position, carried, force, team, slopes);
   };
   switch (wanted) {
     case Wanted::shear_stress:

@@ -13,14 +13,16 @@
 //                   velocity (-1: none)
 //     given     columns it adds to, at i and at j
 //     totals    numbers summed over all pairs (energy, virial, ...)
+//     keeping   what it does with a number kept per pair from one pass to the next (kept_pairs.hpp)
 //
 // and has the call operator
 //
 //     void operator()(const Pair<D, carried>& pair, std::array<Lanes, given>& to_i, std::array<Lanes, given>& to_j,
 //                     std::array<Lanes, totals>& totals) const
 //
-// which sets to_i, to_j and adds to totals. It must vanish at the range: lanes that hold no partner (farther away, an
-// empty slot, the particle itself) are presented with distance == range.
+// which sets to_i, to_j and adds to totals (and returns Lanes to keep if it leaves something). It must vanish at the
+// range: lanes that hold no partner (farther away, an empty slot, the particle itself) are presented with distance ==
+// range.
 #pragma once
 
 #include <algorithm>
@@ -30,6 +32,7 @@
 #include <vector>
 
 #include "lucy/pairs/cluster_list.hpp"
+#include "lucy/pairs/kept_pairs.hpp"
 #include "lucy/pairs/lanes.hpp"
 
 namespace lucy::pairs {
@@ -39,6 +42,7 @@ template <int D, int carried>
 struct Pair {
   std::array<Lanes, D> displacement;
   Lanes distance;
+  Lanes kept;
   std::array<Lanes, carried> of_i;
   std::array<Lanes, carried> of_j;
 };
@@ -49,6 +53,10 @@ struct Pass {
   std::array<const double*, D> position;
   std::array<const double*, Sum::carried> carried;
   std::array<double*, Sum::given> given;
+
+  const double* position_of(int d, std::size_t cluster) const { return position[d] + cluster * lane_count; }
+  const double* carried_of(int c, std::size_t cluster) const { return carried[c] + cluster * lane_count; }
+  double* given_to(int c, std::size_t cluster) const { return given[c] + cluster * lane_count; }
 };
 
 template <class Sum>
@@ -62,85 +70,89 @@ using Given = std::array<Lanes, Sum::given>;
 template <std::size_t D>
 LUCY_INLINE Lanes squared_length(const std::array<Lanes, D>& displacement) {
   Lanes squared = displacement[0] * displacement[0];
-  unrolled<static_cast<int>(D) - 1>([&](auto d) { squared = fma(displacement[d + 1], displacement[d + 1], squared); });
+  unrolled<static_cast<int>(D) - 1>(
+      [&](auto d) { squared = multiply_add(displacement[d + 1], displacement[d + 1], squared); });
   return squared;
 }
 
-/// Displacements and distances of a particle from the eight of a cluster: what has to be known before the sum can
-/// begin.
-template <int D>
-struct Apart {
-  std::array<Lanes, D> displacement;
-  Lanes distance;
-};
-
-template <int D, class Sum>
-LUCY_INLINE Apart<D> measure(const Pass<D, Sum>& pass, const Lanes& range_squared, std::size_t slot,
-                             std::size_t cluster, const space::ImageShift<D>& shift) {
-  const std::size_t at = cluster * lane_count;
-  Apart<D> apart;
+/// What has to be known of a particle and the eight of a cluster before the sum can begin.
+template <int D, class Sum, class Columns>
+LUCY_INLINE void measure(const Columns& columns, const Lanes& range_squared, std::size_t home, std::size_t lane,
+                         std::size_t cluster, const space::ImageShift<D>& shift, Pair<D, Sum::carried>& pair) {
   unrolled<D>([&](auto d) {
-    apart.displacement[d] = (pass.position[d][slot] - shift.position[d]) - load(pass.position[d] + at);
+    pair.displacement[d] =
+        (columns.position_of(d, home)[lane] - shift.position[d]) - load(columns.position_of(d, cluster));
   });
-  apart.distance = sqrt(simd::min(squared_length(apart.displacement), range_squared));
-  return apart;
+  if constexpr (Sum::keeping != Keeping::finds)
+    pair.distance = sqrt(simd::min(squared_length(pair.displacement), range_squared));
 }
 
-/// The sum over the pairs of particle `slot` with the eight of `cluster`, an image of which is shifted by `shift`.
+/// Calls the sum, with the kept number where it belongs.
 template <int D, class Sum>
-LUCY_INLINE void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Apart<D>& apart,
+LUCY_INLINE void call(const Sum& sum, Pair<D, Sum::carried>& pair, Lanes* kept, Given<Sum>& to_i, Given<Sum>& to_j,
+                      std::array<Lanes, Sum::totals>& totals) {
+  if constexpr (Sum::keeping == Keeping::leaves) {
+    *kept = sum(pair, to_i, to_j, totals);
+  } else {
+    if constexpr (Sum::keeping == Keeping::finds) pair.kept = *kept;
+    sum(pair, to_i, to_j, totals);
+  }
+}
+
+/// The sum over the pairs of a particle with the eight of `cluster`, an image of which is shifted by `shift`.
+template <int D, class Sum, class Columns>
+LUCY_INLINE void pair_with_cluster(const Columns& columns, const Sum& sum, Pair<D, Sum::carried>& pair,
                                    const std::array<Lanes, Sum::carried>& of_i, std::size_t cluster,
-                                   const space::ImageShift<D>& shift, Given<Sum>& at_i,
+                                   const space::ImageShift<D>& shift, Lanes* kept, Given<Sum>& at_i,
                                    std::array<Lanes, Sum::totals>& totals) {
-  const std::size_t at = cluster * lane_count;
-  Pair<D, Sum::carried> pair;
-  pair.displacement = apart.displacement;
-  pair.distance = apart.distance;
   unrolled<Sum::carried>([&](auto c) {
     pair.of_i[c] = of_i[c];
     if constexpr (Sum::lab_velocity >= 0 && c >= Sum::lab_velocity && c < Sum::lab_velocity + D)
       pair.of_i[c] -= shift.velocity[c - Sum::lab_velocity];
-    pair.of_j[c] = load(pass.carried[c] + at);
+    pair.of_j[c] = load(columns.carried_of(c, cluster));
   });
   Given<Sum> to_i;
   Given<Sum> to_j;
-  sum(pair, to_i, to_j, totals);
+  call(sum, pair, kept, to_i, to_j, totals);
   unrolled<Sum::given>([&](auto c) {
     at_i[c] += to_i[c];
-    double* target = pass.given[c] + at;
+    double* target = columns.given_to(c, cluster);
     store(target, load(target) + to_j[c]);
   });
 }
 
-/// The pairs of a cluster's own eight that are `turn` lanes apart: lane l with lane l + turn, each pair once.
-template <int turn, int D, class Sum>
-LUCY_INLINE void pair_within_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Lanes& range_squared,
-                                     const Lanes& once, std::size_t cluster, std::array<Lanes, Sum::totals>& totals) {
-  const std::size_t at = cluster * lane_count;
+/// The pairs of a cluster's own eight that are `turn` lanes apart: lane l with lane l + turn, each pair once. Adds to
+/// `own`.
+template <int turn, int D, class Sum, class Columns>
+LUCY_INLINE void pair_within_cluster(const Columns& columns, const Sum& sum, const Lanes& range_squared,
+                                     const Lanes& once, std::size_t cluster, Lanes* kept, Given<Sum>& own,
+                                     std::array<Lanes, Sum::totals>& totals) {
   Pair<D, Sum::carried> pair;
   unrolled<D>([&](auto d) {
-    const Lanes mine = load(pass.position[d] + at);
+    const Lanes mine = load(columns.position_of(d, cluster));
     pair.displacement[d] = mine - rotate<turn>(mine);
   });
   unrolled<Sum::carried>([&](auto c) {
-    pair.of_i[c] = load(pass.carried[c] + at);
+    pair.of_i[c] = load(columns.carried_of(c, cluster));
     pair.of_j[c] = rotate<turn>(pair.of_i[c]);
   });
-  Lanes squared = squared_length(pair.displacement);
-  if constexpr (turn == lane_count / 2) squared = simd::max(squared, once);  // lanes l and l + 4 meet twice
-  pair.distance = sqrt(simd::min(squared, range_squared));
+  if constexpr (Sum::keeping != Keeping::finds) {
+    Lanes squared = squared_length(pair.displacement);
+    if constexpr (turn == lane_count / 2) squared = simd::max(squared, once);  // lanes l and l + 4 meet twice
+    pair.distance = sqrt(simd::min(squared, range_squared));
+  }
   Given<Sum> to_i;
   Given<Sum> to_j;
-  sum(pair, to_i, to_j, totals);
-  unrolled<Sum::given>([&](auto c) {
-    double* target = pass.given[c] + at;
-    store(target, load(target) + (to_i[c] + rotate<lane_count - turn>(to_j[c])));
-  });
+  call(sum, pair, kept + (turn - 1), to_i, to_j, totals);
+  unrolled<Sum::given>([&](auto c) { own[c] += to_i[c] + rotate<lane_count - turn>(to_j[c]); });
 }
 
-template <int D, class Sum>
+template <int D, class Sum, class Columns>
 LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const ImageTable<D>& images,
-                                           double range, const Pass<D, Sum> pass, const Sum sum) {
+                                           double range, const Columns columns, const Sum sum,
+                                           KeptPairs::Block* const kept) {
+  constexpr bool leaves = Sum::keeping == Keeping::leaves;
+  constexpr bool finds = Sum::keeping == Keeping::finds;
   const Lanes range_squared = range * range;
   std::array<double, lane_count> upper_half{};  // range squared in lanes 4 to 7
   std::fill(upper_half.begin() + lane_count / 2, upper_half.end(), range * range);
@@ -151,39 +163,66 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
   // cluster.
   std::array<std::array<Lanes, lane_count>, Sum::given> at_i;  // one row per particle of the cluster
   const space::ImageShift<D>* const shifts = images.data();
-  const RowEntry* entry = block.entries.data();
-  const std::uint32_t* cluster_end = block.cluster_end.data();
+  const RowEntry* const entries = finds ? kept->entries.data() : block.entries.data();
+  const std::uint32_t* cluster_end = finds ? kept->cluster_end.data() : block.cluster_end.data();
+  const RowEntry* entry = entries;
+  Lanes* kept_within = nullptr;
+  Lanes* kept_along = nullptr;
+  RowEntry* kept_entry = nullptr;
+  std::uint32_t* kept_end = nullptr;
+  if constexpr (leaves || finds) {
+    kept_within = kept->within.data();
+    kept_along = kept->along.data();
+    kept_entry = kept->entries.data();
+    kept_end = kept->cluster_end.data();
+  }
   for (std::size_t cluster = block.first_cluster; cluster < block.last_cluster; ++cluster, ++cluster_end) {
-    const std::size_t first = cluster * lane_count;
     // Distances are known one entry ahead of their use, so that the root's long latency is hidden. The entry after the
     // last of the cluster is measured in vain.
-    const auto look = [&](const RowEntry& e) {
-      return measure(pass, range_squared, first + e.lane(), e.cluster(), shifts[e.image()]);
+    const auto look = [&](const RowEntry& e, Pair<D, Sum::carried>& pair) {
+      measure<D, Sum>(columns, range_squared, cluster, e.lane(), e.cluster(), shifts[e.image()], pair);
     };
-    Apart<D> ahead = look(*entry);
-    pair_within_cluster<1>(pass, sum, range_squared, once, cluster, totals);
-    pair_within_cluster<2>(pass, sum, range_squared, once, cluster, totals);
-    pair_within_cluster<3>(pass, sum, range_squared, once, cluster, totals);
-    pair_within_cluster<4>(pass, sum, range_squared, once, cluster, totals);
-    for (auto& rows : at_i) rows.fill(0.0);
-    const RowEntry* const end = block.entries.data() + *cluster_end;
-    while (entry != end) {
-      const std::size_t lane = entry->lane();
+    Pair<D, Sum::carried> ahead;
+    if constexpr (!finds) look(*entry, ahead);
+    Given<Sum> own;
+    unrolled<Sum::given>([&](auto c) { own[c] = load(columns.given_to(c, cluster)); });
+    pair_within_cluster<1, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
+    pair_within_cluster<2, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
+    pair_within_cluster<3, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
+    pair_within_cluster<4, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
+    unrolled<Sum::given>([&](auto c) { store(columns.given_to(c, cluster), own[c]); });
+    if constexpr (leaves || finds) kept_within += lane_count / 2;
+    const RowEntry* const end = entries + *cluster_end;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
       std::array<Lanes, Sum::carried> of_i;
-      unrolled<Sum::carried>([&](auto c) { of_i[c] = pass.carried[c][first + lane]; });
+      unrolled<Sum::carried>([&](auto c) { of_i[c] = columns.carried_of(c, cluster)[lane]; });
       Given<Sum> given;
       unrolled<Sum::given>([&](auto c) { given[c] = 0.0; });
-      do {
-        const Apart<D> apart = ahead;
+      for (; entry != end && entry->lane() == lane;) {
+        Pair<D, Sum::carried> pair;
         const RowEntry now = *entry;
         ++entry;
-        ahead = look(*entry);
-        pair_with_cluster(pass, sum, apart, of_i, now.cluster(), shifts[now.image()], given, totals);
-      } while (entry != end && entry->lane() == lane);
+        if constexpr (finds) {
+          look(now, pair);
+        } else {
+          unrolled<D>([&](auto d) { pair.displacement[d] = ahead.displacement[d]; });
+          pair.distance = ahead.distance;
+          look(*entry, ahead);
+        }
+        pair_with_cluster<D>(columns, sum, pair, of_i, now.cluster(), shifts[now.image()], kept_along, given, totals);
+        if constexpr (leaves) {  // without a branch: what nobody needs is overwritten
+          *kept_entry = now;
+          const std::ptrdiff_t kept = simd::any_of(pair.distance < range) ? 1 : 0;
+          kept_entry += kept;
+          kept_along += kept;
+        }
+        if constexpr (finds) ++kept_along;
+      }
       unrolled<Sum::given>([&](auto c) { at_i[c][lane] = given[c]; });
     }
+    if constexpr (leaves) *kept_end++ = static_cast<std::uint32_t>(kept_entry - kept->entries.data());
     unrolled<Sum::given>([&](auto c) {
-      double* const target = pass.given[c] + first;
+      double* const target = columns.given_to(c, cluster);
       store(target, load(target) + sums_of_rows(at_i[c]));
     });
   }
@@ -194,29 +233,33 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
 
 }  // namespace detail
 
-/// Sums over all pairs within `range`. Adds to pass.given, returns the totals. The same bits for every team.
-template <int D, class Sum>
-Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, double range, const Pass<D, Sum>& pass,
-                     const Sum& sum, const Team& team) {
+/// Sums over all pairs within `range`. Adds to what is given, returns the totals. The
+/// same bits for every team. `kept`: for a sum that leaves or finds something; for one that finds, as left by a pass
+/// with the same list, images and positions.
+template <int D, class Columns, class Sum>
+Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, double range, const Columns& columns,
+                     const Sum& sum, const Team& team, KeptPairs* kept = nullptr) {
+  if constexpr (Sum::keeping == Keeping::leaves) kept->fit(list);
   const auto blocks = list.blocks();
   const auto count = static_cast<std::ptrdiff_t>(blocks.size());
+  const auto over = [&](std::ptrdiff_t b) {
+    const auto block = static_cast<std::size_t>(b);
+    return detail::traverse_block<D, Sum>(blocks[block], images, range, columns, sum,
+                                          Sum::keeping == Keeping::nothing ? nullptr : &(*kept)[block]);
+  };
   Totals<Sum> total{};
   const auto add = [&](const Totals<Sum>& part) {
     for (int c = 0; c < Sum::totals; ++c) total[c] += part[c];
   };
   for (std::ptrdiff_t colour = 0; colour < 2; ++colour) {
     if (team.threads() == 1) {
-      for (std::ptrdiff_t b = colour; b < count; b += 2) {
-        add(detail::traverse_block<D, Sum>(blocks[b], images, range, pass, sum));
-      }
+      for (std::ptrdiff_t b = colour; b < count; b += 2) add(over(b));
     } else {
       thread_local std::vector<Totals<Sum>> parts;  // kept from call to call: no allocation per step
       parts.resize(static_cast<std::size_t>((count - colour + 1) / 2));
       const std::span<Totals<Sum>> shared(parts);  // the others' own `parts` are empty
-      team.share(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t part) {
-        shared[static_cast<std::size_t>(part)] =
-            detail::traverse_block<D, Sum>(blocks[2 * part + colour], images, range, pass, sum);
-      });
+      team.share(static_cast<std::ptrdiff_t>(parts.size()),
+                 [&](std::ptrdiff_t part) { shared[static_cast<std::size_t>(part)] = over(2 * part + colour); });
       for (const auto& part : parts) add(part);
     }
   }

@@ -17,26 +17,30 @@
 
 namespace lucy::spam {
 
-/// The pair sum: each partner gives the other its weight.
+/// The pair sum: each partner gives the other its weight. Leaves the slope, -(1/r) dw/dr.
 template <int D, class Kernel>
 struct DensitySum {
   static constexpr int carried = 0;
   static constexpr int lab_velocity = -1;
   static constexpr int given = 1;
   static constexpr int totals = 0;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::leaves;
 
   Kernel kernel;
 
-  LUCY_INLINE void operator()(const pairs::Pair<D, 0>& pair, std::array<pairs::Lanes, 1>& to_i,
-                              std::array<pairs::Lanes, 1>& to_j, std::array<pairs::Lanes, 0>&) const {
+  LUCY_INLINE pairs::Lanes operator()(const pairs::Pair<D, 0>& pair, std::array<pairs::Lanes, 1>& to_i,
+                                      std::array<pairs::Lanes, 1>& to_j, std::array<pairs::Lanes, 0>&) const {
     to_i[0] = kernel.weight(pair.distance);
     to_j[0] = to_i[0];
+    return kernel.slope(pair.distance);
   }
 };
 
-/// Overwrites `density`; slots as the list arranged them, empty ones hold w(0).
+/// Overwrites `density`; slots as the list arranged them, empty ones hold w(0). Leaves the slopes of the
+/// weight for further passes.
 template <int D>
 void densities(const kernel::Weight<D>& weight, const pairs::ClusterList<D>& list, const pairs::ImageTable<D>& images,
-               const std::array<const double*, D>& position, double* density, const Team& team);
+               const std::array<const double*, D>& position, double* density, pairs::KeptPairs& slopes,
+               const Team& team);
 
 }  // namespace lucy::spam

@@ -27,6 +27,7 @@ struct EntropySum {
   static constexpr int lab_velocity = -1;
   static constexpr int given = 2;
   static constexpr int totals = 0;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::nothing;
 
   Kernel kernel;
   double strain_rate = 0.0;

@@ -32,13 +32,14 @@ struct GradientSum {
   static constexpr int lab_velocity = -1;
   static constexpr int given = D * D + D;
   static constexpr int totals = 0;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::finds;  // the slope
 
   Kernel kernel;
   double strain_rate = 0.0;
 
   LUCY_INLINE void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
                               std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, 0>&) const {
-    const pairs::Lanes slope = kernel.slope(pair.distance);
+    const pairs::Lanes& slope = pair.kept;
     pairs::Lanes factor;
     if constexpr (mean == DensityMean::geometric) {
       factor = slope * (pair.of_i[D + 1] * pair.of_j[D + 1]);
@@ -47,7 +48,7 @@ struct GradientSum {
     }
     std::array<pairs::Lanes, D + 1> difference;  // of v, then T
     pairs::unrolled<D + 1>([&](auto a) { difference[a] = pair.of_i[a] - pair.of_j[a]; });
-    if constexpr (D > 1) difference[0] = fma(strain_rate, pair.displacement[1], difference[0]);
+    if constexpr (D > 1) difference[0] = pairs::multiply_add(strain_rate, pair.displacement[1], difference[0]);
     pairs::unrolled<D>([&](auto b) {
       const pairs::Lanes along = factor * pair.displacement[b];
       pairs::unrolled<D + 1>([&](auto a) { to_i[a * D + b] = to_j[a * D + b] = difference[a] * along; });

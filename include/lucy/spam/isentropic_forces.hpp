@@ -20,12 +20,13 @@
 
 namespace lucy::spam {
 
-/// Overwrites `force` (D columns), `density` and `specific_pressure` (P/rho^2); slots as the list arranged them.
+/// Overwrites `force` (D columns), `density`, `specific_pressure` (P/rho^2) and `slopes`; slots as the list arranged
+/// them.
 template <int D>
 pairs::PairTotals<D> isentropic_forces(const kernel::Lucy<D>& kernel, const Isentropic& state,
                                        const pairs::ClusterList<D>& list, const pairs::ImageTable<D>& images,
                                        const std::array<const double*, D>& position,
                                        const std::array<double*, D>& force, double* density, double* specific_pressure,
-                                       pairs::Wanted wanted, const Team& team);
+                                       pairs::KeptPairs& slopes, pairs::Wanted wanted, const Team& team);
 
 }  // namespace lucy::spam

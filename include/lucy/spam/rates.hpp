@@ -39,13 +39,14 @@ struct RateSum {
   static constexpr int lab_velocity = -1;
   static constexpr int given = D + 1;
   static constexpr int totals = 1;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::finds;  // the slope
 
   Kernel kernel;
   double strain_rate = 0.0;
 
   LUCY_INLINE void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
                               std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, totals>& sums) const {
-    const pairs::Lanes slope = kernel.slope(pair.distance);
+    const pairs::Lanes& slope = pair.kept;
     std::array<pairs::Lanes, D> along;  // -grad_i w
     pairs::unrolled<D>([&](auto b) { along[b] = slope * pair.displacement[b]; });
     std::array<pairs::Lanes, D> force;
@@ -57,27 +58,29 @@ struct RateSum {
       pairs::unrolled<stresses>([&](auto s) { stress[s] = pair.of_i[D + s] + pair.of_j[D + s]; });
       pairs::unrolled<D>([&](auto a) {
         force[a] = stress[component(a, 0)] * along[0];
-        pairs::unrolled<D - 1>([&](auto b) { force[a] = fma(stress[component(a, b + 1)], along[b + 1], force[a]); });
+        pairs::unrolled<D - 1>(
+            [&](auto b) { force[a] = pairs::multiply_add(stress[component(a, b + 1)], along[b + 1], force[a]); });
       });
     }
     pairs::Lanes power = 0.0;  // f_ij . (v_i - v_j)
     pairs::unrolled<D>([&](auto a) {
       pairs::Lanes difference = pair.of_i[a] - pair.of_j[a];
-      if constexpr (D > 1 && a == 0) difference = fma(strain_rate, pair.displacement[1], difference);
-      power = fma(force[a], difference, power);
+      if constexpr (D > 1 && a == 0) difference = pairs::multiply_add(strain_rate, pair.displacement[1], difference);
+      power = pairs::multiply_add(force[a], difference, power);
       to_i[a] = force[a];
       to_j[a] = -force[a];
     });
     if constexpr (fluxes > 0) {
       pairs::Lanes heat = 0.0;  // from j to i
-      pairs::unrolled<D>(
-          [&](auto b) { heat = fma(pair.of_i[D + stresses + b] + pair.of_j[D + stresses + b], along[b], heat); });
-      to_i[D] = fma(-0.5, power, heat);
-      to_j[D] = fma(-0.5, power, -heat);
+      pairs::unrolled<D>([&](auto b) {
+        heat = pairs::multiply_add(pair.of_i[D + stresses + b] + pair.of_j[D + stresses + b], along[b], heat);
+      });
+      to_i[D] = pairs::multiply_add(-0.5, power, heat);
+      to_j[D] = pairs::multiply_add(-0.5, power, -heat);
     } else {
       to_i[D] = to_j[D] = -0.5 * power;
     }
-    if constexpr (D > 1) sums[0] = fma(force[0], pair.displacement[1], sums[0]);
+    if constexpr (D > 1) sums[0] = pairs::multiply_add(force[0], pair.displacement[1], sums[0]);
   }
 
  private:

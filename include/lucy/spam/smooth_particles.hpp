@@ -79,6 +79,7 @@ class SmoothParticles {
   void find_rates(const Particles<D>& particles, const Team& team);
 
   Fluid<D> fluid_;
+  pairs::KeptPairs slopes_;  // of the first pass, for the others
   space::Columns density_;
   space::Columns temperature_;
   space::Columns pressure_;
