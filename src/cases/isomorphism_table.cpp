@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lucy/statistics/equilibration.hpp"
+#include "cases/recorded_series.hpp"
 
 namespace lucy::cases {
 
@@ -23,14 +23,6 @@ double shear_stress(const IsomorphismSample& sample) {
 
 double potential_energy(const IsomorphismSample& sample) {
   return sample[isomorphism_quantity("atoms_potential_energy")];
-}
-
-template <class Quantity>
-std::vector<double> series_of(std::span<const IsomorphismSample> samples, const Quantity& of) {
-  std::vector<double> series;
-  series.reserve(samples.size());
-  for (const IsomorphismSample& sample : samples) series.push_back(of(sample));
-  return series;
 }
 
 /// Kept by the motion at rest and by the isoenergetic thermostat: what little an integrator lets it drift is no
@@ -81,23 +73,14 @@ IsomorphismRow summarize(const IsomorphismPoint& point, std::span<const Isomorph
   row.status = RowStatus::too_short;
   if (row.difference || replicas.empty()) return row;
 
-  std::vector<std::span<const IsomorphismSample>> kept;
-  for (const IsomorphismRecord& record : replicas) {
-    const std::span samples(record.samples);
-    const std::size_t cut = std::max(statistics::equilibration_cut(series_of(samples, shear_stress)),
-                                     statistics::equilibration_cut(series_of(samples, potential_energy)));
-    kept.push_back(samples.subspan(cut));
-    row.equilibration_discarded +=
-        static_cast<double>(cut) * record.sample_interval / static_cast<double>(replicas.size());
-  }
+  const std::vector<std::size_t> cuts = equilibration_cuts(replicas, shear_stress, potential_energy);
+  row.equilibration_discarded = discarded_time(replicas, cuts);
   const bool heats_up = point.strain_rate != 0.0 && point.thermostat == motion::Thermostat::none;
   bool all_known = true;
   for (std::size_t q = 0; q < row.estimates.size(); ++q) {
     if (point.strain_rate == 0.0 && isomorphism_quantities[q].find("viscosity") != std::string_view::npos) continue;
-    std::vector<std::vector<double>> series;
-    for (const auto& samples : kept)
-      series.push_back(series_of(samples, [q](const IsomorphismSample& sample) { return sample[q]; }));
-    row.estimates[q] = statistics::pooled_mean(series);
+    row.estimates[q] =
+        statistics::pooled_mean(series_of(replicas, cuts, [q](const IsomorphismSample& sample) { return sample[q]; }));
     if (heats_up) row.estimates[q].error = not_a_number;
     all_known = all_known && (is_conserved(q) || !std::isnan(row.estimates[q].error));
   }

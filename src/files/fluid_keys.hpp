@@ -13,21 +13,15 @@ namespace lucy::files {
 
 template <class Row>
 std::vector<BoundKey<Row>> weight_keys() {
-  return {
+  const std::vector<BoundKey<Row>> name = {
       {{.section = "kernel",
         .name = "name",
         .type = Type::choice,
         .meaning = "Weight function: \"lucy\", (5/(pi h^2)) (1 + 3r/h)(1 - r/h)^3, or \"monaghan\", the cubic "
                    "B-spline.",
         .choices = names_of(kernel::weight_names)},
-       stored_by_name_in(member_of<Row>(&Row::weight), kernel::weight_names)},
-      {{.section = "kernel",
-        .name = "range",
-        .unit = "sigma",
-        .meaning = "Range h, the distance at which the weight function ends. The box must be at least twice as large.",
-        .range = Range::above(0)},
-       stored_in(member_of<Row>(&Row::range))},
-  };
+       stored_by_name_in(member_of<Row>(&Row::weight), kernel::weight_names)}};
+  return joined(name, range_key<Row>());
 }
 
 template <class Row>

@@ -75,11 +75,6 @@ void add_state(CsvLine& line, std::size_t point, const GreenKuboRow& row) {
   line.add(row.particles);
 }
 
-void add_with_error(std::vector<std::string>& columns, std::string_view name) {
-  columns.emplace_back(name);
-  columns.push_back(fmt::format("{}_error", name));
-}
-
 }  // namespace
 
 std::vector<std::string> viscosity_columns() {
@@ -95,46 +90,33 @@ std::vector<std::string> viscosity_columns() {
 }
 
 void write_viscosity_csv(const std::filesystem::path& path, std::span<const GreenKuboRow> rows) {
-  std::string text = fmt::format("{}\n", fmt::join(viscosity_columns(), ","));
-  CsvLine line;
-  for (const GreenKuboRow& row : rows) {
+  write_rows(path, viscosity_columns(), rows, [](CsvLine& line, const GreenKuboRow& row) {
     line.add(row.energy_per_particle);
     line.add(row.particles);
-    for (const auto& estimate : row.estimates) {
-      line.add(estimate.value);
-      line.add(estimate.error);
-    }
+    for (const auto& estimate : row.estimates) add(line, estimate);
     for (const auto& [name, member] : decisions) line.add(row.*member);
     line.add(static_cast<std::int64_t>(row.blocks));
     for (const auto& [name, member] : settings) line.add(row.*member);
     line.add(static_cast<std::int64_t>(row.replicas));
     for (const auto& [name, member] : energies) line.add(row.*member);
     line.add(cases::status_name(row.status));
-    text += line.end();
-  }
-  write_file_atomically(path, text);
+  });
 }
 
 std::vector<GreenKuboRow> read_viscosity_csv(const std::filesystem::path& path) {
-  const CsvFile file(path);
-  require_columns(file, viscosity_columns(), "viscosity.csv");
-  std::vector<GreenKuboRow> rows;
-  for (const auto& line : file.rows()) {
-    const RowCells cells(file, line);
-    GreenKuboRow row;
-    row.energy_per_particle = cells.number("energy_per_particle");
-    row.particles = cells.integer("particles");
-    for (std::size_t i = 0; i < row.estimates.size(); ++i)
-      row.estimates[i] = cells.estimate(cases::green_kubo_quantities[i]);
-    for (const auto& [name, member] : decisions) row.*member = cells.number(name);
-    row.blocks = cells.count("blocks");
-    for (const auto& [name, member] : settings) row.*member = cells.number(name);
-    row.replicas = cells.count("replicas");
-    for (const auto& [name, member] : energies) row.*member = cells.number(name);
-    row.status = cells.status();
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  return read_rows<GreenKuboRow>(path, viscosity_columns(), "viscosity.csv",
+                                 [](const RowCells& cells, GreenKuboRow& row) {
+                                   row.energy_per_particle = cells.number("energy_per_particle");
+                                   row.particles = cells.integer("particles");
+                                   for (std::size_t i = 0; i < row.estimates.size(); ++i)
+                                     row.estimates[i] = cells.estimate(cases::green_kubo_quantities[i]);
+                                   for (const auto& [name, member] : decisions) row.*member = cells.number(name);
+                                   row.blocks = cells.count("blocks");
+                                   for (const auto& [name, member] : settings) row.*member = cells.number(name);
+                                   row.replicas = cells.count("replicas");
+                                   for (const auto& [name, member] : energies) row.*member = cells.number(name);
+                                   row.status = cells.status();
+                                 });
 }
 
 void write_correlation_csv(const std::filesystem::path& path, std::span<const GreenKuboResult> results) {

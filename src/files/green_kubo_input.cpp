@@ -102,31 +102,22 @@ std::vector<BoundKey<P>> correlation_keys() {
 }
 
 std::vector<BoundKey<P>> output_keys() {
-  return {
-      {{.section = "output",
-        .name = "sample_interval",
-        .unit = "time",
-        .meaning = "Time between samples of the stress, a whole number of steps. At low energies part of the stress is "
-                   "forgotten within a time of 2: longer than a thermal particle takes to cross a quarter of the range "
-                   "is refused.",
-        .range = Range::above(0),
-        .default_text = "the most whole steps within 0.2 and within half the time of that crossing, at least one"},
-       stored_unless_zero_in(&P::sample_interval)},
-      {{.section = "output",
-        .name = "frame_interval",
-        .unit = "time",
-        .meaning =
-            "Time between recorded configurations of the first replica, a whole number of steps (and of samples, "
-            "if sample_interval is set); 0 records none. They fall on the start of the recording and on "
-            "multiples of this interval after it.",
-        .range = Range::at_least(0)},
-       stored_in(&P::frame_interval)},
+  const std::vector<BoundKey<P>> series = {
       {{.section = "output",
         .name = "series",
         .type = Type::boolean,
         .meaning = "Keep every sample of the stress, six numbers each, and write them to the H5MD file of the state."},
-       stored_in(&P::series)},
-  };
+       stored_in(&P::series)}};
+  return joined(
+      sample_interval_key<P>(
+          "Time between samples of the stress, a whole number of steps. At low energies part of the stress is "
+          "forgotten within a time of 2: longer than a thermal particle takes to cross a quarter of the range is "
+          "refused.",
+          "the most whole steps within 0.2 and within half the time of that crossing, at least one"),
+      frame_interval_key<P>("Time between recorded configurations of the first replica, a whole number of steps (and "
+                            "of samples, if sample_interval is set); 0 records none. They fall on the start of the "
+                            "recording and on multiples of this interval after it."),
+      series);
 }
 
 /// The keys that may differ from row to row.
@@ -137,23 +128,19 @@ std::vector<BoundKey<P>> point_keys() {
 }  // namespace
 
 Schema green_kubo_schema() {
-  Schema schema;
-  schema.introduction = introduction_of("green-kubo");
-  schema.sections = {{"", "The experiment."},
-                     {"system", "What is simulated, at rest and at constant energy."},
-                     {"kernel", "The pair potential."},
-                     {"run", "How it is integrated, how long, how often."},
-                     {"correlation", "What is correlated, over what times."},
-                     {"output", "What is recorded."}};
-  schema.foreign = {{"shear",
-                     "a Green-Kubo state is at rest, its strain rate zero; [shear] belongs to an input of "
-                     "`lucy sweep`"}};
-  schema.rows = "point";
-  schema.rows_meaning = point_tables_of(
+  Schema schema = input_schema<GreenKuboInput>(
+      "green-kubo",
+      {{"", "The experiment."},
+       {"system", "What is simulated, at rest and at constant energy."},
+       {"kernel", "The pair potential."},
+       {"run", "How it is integrated, how long, how often."},
+       {"correlation", "What is correlated, over what times."},
+       {"output", "What is recorded."}},
+      point_keys(),
       "all pairs of a number of particles and an energy_per_particle: the numbers of particles outermost, the energies "
       "innermost",
       "particles or energy_per_particle");
-  schema.keys = arranged(whole_keys<GreenKuboInput>(), point_keys());
+  schema.lacking = {{"shear", "a Green-Kubo state is at rest, its strain rate zero"}};
   return schema;
 }
 
@@ -165,7 +152,5 @@ GreenKuboInput read_green_kubo(const std::filesystem::path& file, std::span<cons
 std::string green_kubo_resolved_toml(const GreenKuboInput& input) {
   return resolved_input("Green-Kubo states", green_kubo_schema(), input, point_keys());
 }
-
-std::string explain_green_kubo(std::string_view filter) { return explain(green_kubo_schema(), filter); }
 
 }  // namespace lucy::files

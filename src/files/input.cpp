@@ -25,29 +25,10 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
         .range = Range::above(0),
         .default_text = "that of the start"},
        stored_in(&P::kinetic_temperature)}};
-  const std::vector<BoundKey<P>> shear = {
-      {{.section = "shear",
-        .name = "strain_rate",
-        .unit = "1/time",
-        .meaning = "Strain rate d u_x/d y, of either sign. At zero there is no shear and no viscosity.",
-        .required = true,
-        .lists = Lists::multiply,
-        .replaces_rows = true},
-       stored_in(&P::strain_rate)},
-      {{.section = "shear",
-        .name = "thermostat",
-        .type = Type::choice,
-        .meaning = "How the heat of the shear is removed: at constant internal energy (Gauss), at constant kinetic "
-                   "energy (Gauss), by feedback (Nose and Hoover), or not at all.",
-        .choices = names_of(motion::thermostat_names)},
-       stored_by_name_in(&P::thermostat, motion::thermostat_names)},
-      {{.section = "shear",
-        .name = "relaxation_time",
-        .unit = "time",
-        .meaning = "Relaxation time tau of the Nose-Hoover thermostat.",
-        .range = Range::above(0)},
-       stored_in(&P::relaxation_time)},
-  };
+  const auto shear = joined(
+      strain_rate_key<P>("Strain rate d u_x/d y, of either sign. At zero there is no shear and no viscosity."),
+      thermostat_keys<P>("How the heat of the shear is removed: at constant internal energy (Gauss), at constant "
+                         "kinetic energy (Gauss), by feedback (Nose and Hoover), or not at all."));
   const std::vector<BoundKey<P>> target = {
       {{.section = "run",
         .name = "target_relative_error",
@@ -70,24 +51,13 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
                    "removed is reported."},
        stored_in(&P::rescale)},
   };
-  const std::vector<BoundKey<P>> output = {
-      {{.section = "output",
-        .name = "sample_interval",
-        .unit = "time",
-        .meaning = "Time over which one recorded value averages, a whole number of steps.",
-        .range = Range::above(0),
-        .default_text = "the larger of 0.5 and duration/20000, at most duration/10"},
-       stored_unless_zero_in(&P::sample_interval)},
-      {{.section = "output",
-        .name = "frame_interval",
-        .unit = "time",
-        .meaning =
-            "Time between recorded configurations of the first replica, a whole number of steps; 0 records none. They "
-            "fall on the end of the equilibration and on multiples of this interval after it. A sample_interval that "
-            "is not set is shortened until it divides this one; one that is set must divide it.",
-        .range = Range::at_least(0)},
-       stored_in(&P::frame_interval)},
-  };
+  const auto output = joined(
+      sample_interval_key<P>("Time over which one recorded value averages, a whole number of steps.",
+                             "the larger of 0.5 and duration/20000, at most duration/10"),
+      frame_interval_key<P>(
+          "Time between recorded configurations of the first replica, a whole number of steps; 0 records none. They "
+          "fall on the end of the equilibration and on multiples of this interval after it. A sample_interval that "
+          "is not set is shortened until it divides this one; one that is set must divide it."));
   const std::string rates = "shear.strain_rate";
   const std::string equilibration =
       "Time run first and not recorded, per replica. More is discarded later where the data ask for it.";
@@ -105,21 +75,17 @@ void refuse_contradictions(const CouettePoint& point) {
 }  // namespace
 
 Schema sweep_schema() {
-  Schema schema;
-  schema.introduction = introduction_of("sweep");
-  schema.sections = {{"", "The experiment."},
-                     {"system", "What is simulated."},
-                     {"kernel", "The pair potential."},
-                     {"shear", "What drives it, and what keeps it steady."},
-                     {"run", "How it is integrated, how long, how often."},
-                     {"output", "What is recorded."}};
-  schema.foreign = {{"correlation", "it belongs to an input of `lucy green-kubo`"}};
-  schema.rows = "point";
-  schema.rows_meaning = point_tables_of(
+  return input_schema<SweepInput>(
+      "sweep",
+      {{"", "The experiment."},
+       {"system", "What is simulated."},
+       {"kernel", "The pair potential."},
+       {"shear", "What drives it, and what keeps it steady."},
+       {"run", "How it is integrated, how long, how often."},
+       {"output", "What is recorded."}},
+      point_keys(),
       "all pairs of an energy_per_particle and a strain_rate: the energies outermost, the strain rates innermost",
       "particles, energy_per_particle or strain_rate");
-  schema.keys = arranged(whole_keys<SweepInput>(), point_keys());
-  return schema;
 }
 
 SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::string> overrides) {
@@ -132,7 +98,5 @@ SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::st
 std::string resolved_toml(const SweepInput& input) {
   return resolved_input("a sweep", sweep_schema(), input, point_keys());
 }
-
-std::string explain_text(std::string_view filter) { return explain(sweep_schema(), filter); }
 
 }  // namespace lucy::files

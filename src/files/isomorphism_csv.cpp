@@ -12,8 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "lucy/errors.hpp"
-#include "lucy/files/atomic_file.hpp"
 #include "lucy/files/csv.hpp"
 #include "row_cells.hpp"
 
@@ -62,10 +60,9 @@ void add_difference(CsvLine& line, const IsomorphismRow& row) {
   line.add(difference.smooth);
 }
 
-std::optional<Difference> read_difference(const CsvFile& file, const CsvFile::Row& line) {
-  const std::string& name = line.cells[file.column("difference_component")];
+std::optional<Difference> read_difference(const RowCells& cells) {
+  const std::string& name = cells.text("difference_component");
   if (name == no_component) return std::nullopt;
-  const RowCells cells(file, line);
   Difference difference;
   difference.step = cells.integer("difference_step");
   difference.time = cells.number("difference_time");
@@ -74,9 +71,9 @@ std::optional<Difference> read_difference(const CsvFile& file, const CsvFile::Ro
   const auto place_in = [&](const auto& names) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end())
-      throw BadInput(fmt::format("{}:{}: difference_component is \"{}\" where one of {}, {} or {} was expected",
-                                 file.path(), line.line, name, fmt::join(cases::compared_coordinates, ", "),
-                                 fmt::join(cases::compared_sums, ", "), no_component));
+      cells.refuse_choice("difference_component", name,
+                          fmt::format("{}, {} or {}", fmt::join(cases::compared_coordinates, ", "),
+                                      fmt::join(cases::compared_sums, ", "), no_component));
     return static_cast<int>(found - names.begin());
   };
   if (std::isnan(cells.number("difference_particle"))) {
@@ -99,19 +96,14 @@ std::vector<std::string> isomorphism_columns() {
        {"replicas", "steps", "comparisons", "identical", "difference_replica", "difference_step", "difference_time",
         "difference_particle", "difference_component", "difference_atoms", "difference_smooth"})
     columns.emplace_back(name);
-  for (const auto name : cases::isomorphism_quantities) {
-    columns.emplace_back(name);
-    columns.push_back(fmt::format("{}_error", name));
-  }
+  for (const auto name : cases::isomorphism_quantities) add_with_error(columns, name);
   for (const auto* name : {"equilibration_discarded", "worst_energy_error", "subdivided_steps", "status"})
     columns.emplace_back(name);
   return columns;
 }
 
 void write_isomorphism_csv(const std::filesystem::path& path, std::span<const IsomorphismRow> rows) {
-  std::string text = fmt::format("{}\n", fmt::join(isomorphism_columns(), ","));
-  CsvLine line;
-  for (const IsomorphismRow& row : rows) {
+  write_rows(path, isomorphism_columns(), rows, [](CsvLine& line, const IsomorphismRow& row) {
     line.add(row.particles);
     for (const auto& [name, member] : state_settings) line.add(row.*member);
     line.add(std::string_view(row.thermostat));
@@ -121,44 +113,33 @@ void write_isomorphism_csv(const std::filesystem::path& path, std::span<const Is
     line.add(row.comparisons);
     line.add(row.identical());
     add_difference(line, row);
-    for (const auto& estimate : row.estimates) {
-      line.add(estimate.value);
-      line.add(estimate.error);
-    }
+    for (const auto& estimate : row.estimates) add(line, estimate);
     line.add(row.equilibration_discarded);
     line.add(row.worst_energy_error);
     line.add(row.subdivided_steps);
     line.add(cases::status_name(row.status));
-    text += line.end();
-  }
-  write_file_atomically(path, text);
+  });
 }
 
 std::vector<IsomorphismRow> read_isomorphism_csv(const std::filesystem::path& path) {
-  const CsvFile file(path);
-  require_columns(file, isomorphism_columns(), "isomorphism.csv");
-  std::vector<IsomorphismRow> rows;
-  for (const auto& line : file.rows()) {
-    const RowCells cells(file, line);
-    IsomorphismRow row;
-    row.particles = cells.integer("particles");
-    for (const auto& [name, member] : state_settings) row.*member = cells.number(name);
-    row.thermostat = line.cells[file.column("thermostat")];
-    for (const auto& [name, member] : other_settings) row.*member = cells.number(name);
-    row.replicas = cells.count("replicas");
-    row.steps = cells.integer("steps");
-    row.comparisons = cells.integer("comparisons");
-    row.difference = read_difference(file, line);
-    if (row.difference) row.differing_replica = cells.count("difference_replica");
-    for (std::size_t i = 0; i < row.estimates.size(); ++i)
-      row.estimates[i] = cells.estimate(cases::isomorphism_quantities[i]);
-    row.equilibration_discarded = cells.number("equilibration_discarded");
-    row.worst_energy_error = cells.number("worst_energy_error");
-    row.subdivided_steps = cells.integer("subdivided_steps");
-    row.status = cells.status();
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  return read_rows<IsomorphismRow>(path, isomorphism_columns(), "isomorphism.csv",
+                                   [](const RowCells& cells, IsomorphismRow& row) {
+                                     row.particles = cells.integer("particles");
+                                     for (const auto& [name, member] : state_settings) row.*member = cells.number(name);
+                                     row.thermostat = cells.text("thermostat");
+                                     for (const auto& [name, member] : other_settings) row.*member = cells.number(name);
+                                     row.replicas = cells.count("replicas");
+                                     row.steps = cells.integer("steps");
+                                     row.comparisons = cells.integer("comparisons");
+                                     row.difference = read_difference(cells);
+                                     if (row.difference) row.differing_replica = cells.count("difference_replica");
+                                     for (std::size_t i = 0; i < row.estimates.size(); ++i)
+                                       row.estimates[i] = cells.estimate(cases::isomorphism_quantities[i]);
+                                     row.equilibration_discarded = cells.number("equilibration_discarded");
+                                     row.worst_energy_error = cells.number("worst_energy_error");
+                                     row.subdivided_steps = cells.integer("subdivided_steps");
+                                     row.status = cells.status();
+                                   });
 }
 
 }  // namespace lucy::files

@@ -30,71 +30,40 @@ std::vector<BoundKey<P>> fluid_keys() {
   };
 }
 
-std::vector<BoundKey<P>> shear_keys() {
-  return {
-      {{.section = "shear",
-        .name = "strain_rate",
-        .unit = "1/time",
-        .meaning = "Strain rate d u_x/d y, of either sign. At zero the motion is Newton's, without a thermostat.",
-        .required = true,
-        .lists = Lists::multiply,
-        .replaces_rows = true},
-       stored_in(&P::strain_rate)},
-      {{.section = "shear",
-        .name = "thermostat",
-        .type = Type::choice,
-        .meaning = "How the heat of the shear is removed, in both readings: at constant internal energy (Gauss), at "
-                   "constant kinetic energy (Gauss), by feedback (Nose and Hoover), or not at all. There is none at "
-                   "strain rate zero.",
-        .choices = names_of(motion::thermostat_names)},
-       stored_by_name_in(&P::thermostat, motion::thermostat_names)},
-      {{.section = "shear",
-        .name = "relaxation_time",
-        .unit = "time",
-        .meaning = "Relaxation time tau of the Nose-Hoover thermostat.",
-        .range = Range::above(0)},
-       stored_in(&P::relaxation_time)},
-  };
-}
-
 /// The keys that may differ from row to row.
 std::vector<BoundKey<P>> point_keys() {
-  const std::vector<BoundKey<P>> output = {
-      {{.section = "output",
-        .name = "sample_interval",
-        .unit = "time",
-        .meaning = "Time between samples of stresses and energies, a whole number of steps. Bits are compared after "
-                   "every step.",
-        .range = Range::above(0),
-        .default_text = "the smaller of 1 and duration/10"},
-       stored_unless_zero_in(&P::sample_interval)}};
+  const auto shear = joined(
+      strain_rate_key<P>(
+          "Strain rate d u_x/d y, of either sign. At zero the motion is Newton's, without a thermostat."),
+      thermostat_keys<P>("How the heat of the shear is removed, in both readings: at constant internal energy (Gauss), "
+                         "at constant kinetic energy (Gauss), by feedback (Nose and Hoover), or not at all. There is "
+                         "none at strain rate zero."));
+  const auto output = sample_interval_key<P>(
+      "Time between samples of stresses and energies, a whole number of steps. Bits are compared after every step.",
+      "the smaller of 1 and duration/10");
   const std::string rates = "shear.strain_rate";
   const std::string equilibration =
       "Time run first, per replica: compared as all the rest, but not sampled. More samples are discarded later where "
       "the data ask for it.";
-  return joined(system_keys<P>(Lists::none), fluid_keys(), kernel_keys<P>(), shear_keys(), integration_keys<P>(rates),
+  return joined(system_keys<P>(Lists::none), fluid_keys(), kernel_keys<P>(), shear, integration_keys<P>(rates),
                 length_keys<P>(equilibration, rates), replica_keys<P>(), tolerance_keys<P>(), output);
 }
 
 }  // namespace
 
 Schema isomorphism_schema() {
-  Schema schema;
-  schema.introduction = introduction_of("isomorphism");
-  schema.sections = {{"", "The experiment."},
-                     {"system", "What is simulated, once as atoms and once as smooth particles."},
-                     {"isentropic", "What fluid the smooth particles are."},
-                     {"kernel", "The pair potential of the atoms, and the weight function of the smooth particles."},
-                     {"shear", "What drives both, and what keeps them steady."},
-                     {"run", "How both are integrated, how long, how often."},
-                     {"output", "What is recorded."}};
-  schema.foreign = {{"correlation", "it belongs to an input of `lucy green-kubo`"}};
-  schema.rows = "point";
-  schema.rows_meaning = point_tables_of(
+  return input_schema<IsomorphismInput>(
+      "isomorphism",
+      {{"", "The experiment."},
+       {"system", "What is simulated, once as atoms and once as smooth particles."},
+       {"isentropic", "What fluid the smooth particles are."},
+       {"kernel", "The pair potential of the atoms, and the weight function of the smooth particles."},
+       {"shear", "What drives both, and what keeps them steady."},
+       {"run", "How both are integrated, how long, how often."},
+       {"output", "What is recorded."}},
+      point_keys(),
       "all pairs of an energy_per_particle and a strain_rate: the energies outermost, the strain rates innermost",
       "particles, energy_per_particle or strain_rate");
-  schema.keys = arranged(whole_keys<IsomorphismInput>(), point_keys());
-  return schema;
 }
 
 IsomorphismInput read_isomorphism(const std::filesystem::path& file, std::span<const std::string> overrides) {
@@ -105,7 +74,5 @@ IsomorphismInput read_isomorphism(const std::filesystem::path& file, std::span<c
 std::string isomorphism_resolved_toml(const IsomorphismInput& input) {
   return resolved_input("isomorphism cases", isomorphism_schema(), input, point_keys());
 }
-
-std::string explain_isomorphism(std::string_view filter) { return explain(isomorphism_schema(), filter); }
 
 }  // namespace lucy::files

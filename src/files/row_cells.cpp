@@ -18,6 +18,16 @@ void require_columns(const CsvFile& file, std::span<const std::string> columns, 
                                  fmt::join(file.columns(), ", ")));
 }
 
+void add_with_error(std::vector<std::string>& columns, std::string_view name) {
+  columns.emplace_back(name);
+  columns.push_back(fmt::format("{}_error", name));
+}
+
+void add(CsvLine& line, const statistics::Estimate& estimate) {
+  line.add(estimate.value);
+  line.add(estimate.error);
+}
+
 double RowCells::number(std::string_view column) const { return file_.number(row_, file_.column(column)); }
 
 std::int64_t RowCells::integer(std::string_view column) const { return file_.integer(row_, file_.column(column)); }
@@ -41,7 +51,7 @@ statistics::Estimate RowCells::estimate(std::string_view name) const {
 
 cases::RowStatus RowCells::status() const {
   using cases::RowStatus;
-  const std::string& name = row_.cells[file_.column("status")];
+  const std::string& name = text("status");
   for (const RowStatus status : {RowStatus::ok, RowStatus::too_short, RowStatus::failed})
     if (cases::status_name(status) == name) return status;
   throw BadInput(

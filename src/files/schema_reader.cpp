@@ -219,6 +219,19 @@ Entry entry_of(const Key& key, const toml::node& node, const Origin& origin, con
 
 std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
+/// "SUBJECT belongs to an input of `lucy sweep` or `lucy isomorphism`", or nothing when it belongs to none.
+std::string owners_text(const Schema& schema, std::string_view subject, std::string_view section,
+                        std::string_view name) {
+  if (!schema.owners) return "";
+  std::vector<std::string> commands = schema.owners(section, name);
+  if (commands.empty()) return "";
+  for (std::string& command : commands) command = fmt::format("`lucy {}`", command);
+  const std::string last = std::move(commands.back());
+  commands.pop_back();
+  return fmt::format("{} belongs to an input of {}{}{}", subject, fmt::join(commands, ", "),
+                     commands.empty() ? "" : " or ", last);
+}
+
 /// The end of the sentence about an unknown key of `section`.
 std::string suggestion(const Schema& schema, std::string_view section, std::string_view name) {
   std::vector<std::string> here;
@@ -229,6 +242,7 @@ std::string suggestion(const Schema& schema, std::string_view section, std::stri
       return key.section.empty() ? "; it stands before the first section"
                                  : fmt::format("; '{}' is a key of [{}]", name, key.section);
   }
+  if (const std::string owners = owners_text(schema, "it", section, name); !owners.empty()) return "; " + owners;
   if (const auto nearest = nearest_name(name, here)) return fmt::format("; did you mean '{}'?", *nearest);
   if (const auto nearest = nearest_name(name, elsewhere))
     for (const Key& key : schema.keys)
@@ -255,9 +269,11 @@ bool is_section(const Schema& schema, std::string_view name) {
   std::vector<std::string> near = names;
   if (!schema.rows.empty()) near.push_back(schema.rows);
   std::string hint = "the sections are " + listed(names);
-  const auto foreign = std::ranges::find(schema.foreign, name, &Section::name);
-  if (foreign != schema.foreign.end()) {
-    hint = foreign->meaning;
+  const auto lacking = std::ranges::find(schema.lacking, name, &Section::name);
+  if (lacking != schema.lacking.end()) {
+    hint = fmt::format("{}; {}", lacking->meaning, owners_text(schema, fmt::format("[{}]", name), name, ""));
+  } else if (const std::string owners = owners_text(schema, "it", name, ""); !owners.empty()) {
+    hint = owners;
   } else if (const auto nearest = nearest_name(name, near)) {
     hint = fmt::format("did you mean {}?", *nearest == schema.rows ? "[[" + *nearest + "]]" : "[" + *nearest + "]");
   } else if (const Key* key = key_named(schema, name)) {
@@ -319,10 +335,12 @@ class RowReader {
     std::vector<std::string> names;
     for (const Key& key : schema_.keys)
       if (key.in_rows) names.push_back(key.name);
-    const auto nearest = nearest_name(name, names);
-    throw BadInput(
-        fmt::format("{}: [[{}]] unknown key '{}'; {}", origin.where, schema_.rows, shown(name),
-                    nearest ? fmt::format("did you mean '{}'?", *nearest) : "its keys are " + listed(names)));
+    std::string hint = owners_text(schema_, "it", "", name);
+    if (hint.empty()) hint = owners_text(schema_, "it", name, "");
+    if (const auto nearest = nearest_name(name, names); hint.empty() && nearest)
+      hint = fmt::format("did you mean '{}'?", *nearest);
+    if (hint.empty()) hint = "its keys are " + listed(names);
+    throw BadInput(fmt::format("{}: [[{}]] unknown key '{}'; {}", origin.where, schema_.rows, shown(name), hint));
   }
 
   const Schema& schema_;
@@ -428,14 +446,23 @@ Document read_document(const std::filesystem::path& file, std::span<const std::s
   return document;
 }
 
-bool has_section(const std::filesystem::path& file, std::string_view name) {
+Outline outline_of(const std::filesystem::path& file, std::string_view rows) {
+  toml::table root;
   try {
-    return toml::parse(file_text(file))[name].is_table();
+    root = toml::parse(file_text(file));
   } catch (const toml::parse_error&) {
-    return false;
+    return {};
   } catch (const BadInput&) {
-    return false;
+    return {};
   }
+  Outline outline;
+  for (auto&& [key, node] : root)
+    if (node.is_table()) outline.sections.emplace(key.str());
+  if (const toml::array* tables = root[rows].as_array())
+    for (const toml::node& table : *tables)
+      if (table.is_table())
+        for (auto&& [key, node] : *table.as_table()) outline.row_keys.emplace(key.str());
+  return outline;
 }
 
 }  // namespace lucy::files

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lucy/errors.hpp"
+#include "lucy/files/all_inputs.hpp"
 #include "lucy/files/schema.hpp"
 #include "lucy/motion/settings.hpp"
 
@@ -105,14 +106,8 @@ std::vector<BoundKey<Row>> system_keys(Lists particles) {
 }
 
 template <class Row>
-std::vector<BoundKey<Row>> kernel_keys() {
+std::vector<BoundKey<Row>> range_key() {
   return {
-      {{.section = "kernel",
-        .name = "name",
-        .type = Type::choice,
-        .meaning = "Weight function: \"lucy\", (5/(pi h^2)) (1 + 3r/h)(1 - r/h)^3.",
-        .choices = {"lucy"}},
-       stored_in(member_of<Row>(&Row::kernel))},
       {{.section = "kernel",
         .name = "range",
         .unit = "sigma",
@@ -122,25 +117,79 @@ std::vector<BoundKey<Row>> kernel_keys() {
   };
 }
 
-/// `entries_of`: the key whose list a list of steps follows.
+/// Of the Lucy fluid.
+template <class Row>
+std::vector<BoundKey<Row>> kernel_keys() {
+  const std::vector<BoundKey<Row>> name = {
+      {{.section = "kernel",
+        .name = "name",
+        .type = Type::choice,
+        .meaning = "Weight function: \"lucy\", (5/(pi h^2)) (1 + 3r/h)(1 - r/h)^3.",
+        .choices = {"lucy"}},
+       stored_in(member_of<Row>(&Row::kernel))}};
+  return joined(name, range_key<Row>());
+}
+
+/// `meaning` of the rate.
+template <class Row>
+std::vector<BoundKey<Row>> strain_rate_key(const std::string& meaning) {
+  return {
+      {{.section = "shear",
+        .name = "strain_rate",
+        .unit = "1/time",
+        .meaning = meaning,
+        .required = true,
+        .lists = Lists::multiply,
+        .replaces_rows = true},
+       stored_in(member_of<Row>(&Row::strain_rate))},
+  };
+}
+
+/// `meaning` of the thermostat.
+template <class Row>
+std::vector<BoundKey<Row>> thermostat_keys(const std::string& meaning) {
+  return {
+      {{.section = "shear",
+        .name = "thermostat",
+        .type = Type::choice,
+        .meaning = meaning,
+        .choices = names_of(motion::thermostat_names)},
+       stored_by_name_in(member_of<Row>(&Row::thermostat), motion::thermostat_names)},
+      {{.section = "shear",
+        .name = "relaxation_time",
+        .unit = "time",
+        .meaning = "Relaxation time tau of the Nose-Hoover thermostat.",
+        .range = Range::above(0)},
+       stored_in(member_of<Row>(&Row::relaxation_time))},
+  };
+}
+
+/// `entries_of`: the key whose list a list of steps follows; empty: lists are refused.
+template <class Row>
+std::vector<BoundKey<Row>> step_key(const std::string& meaning, double most, const std::string& entries_of) {
+  return {
+      {{.section = "run",
+        .name = "step",
+        .unit = "time",
+        .meaning = meaning,
+        .range = Range::above(0).at_most(most),
+        .lists = entries_of.empty() ? Lists::none : Lists::one_per_entry,
+        .entries_of = entries_of},
+       stored_in(member_of<Row>(&Row::step))},
+  };
+}
+
+/// `entries_of` as above.
 template <class Row>
 std::vector<BoundKey<Row>> integration_keys(const std::string& entries_of) {
-  return {
+  const std::vector<BoundKey<Row>> integrator = {
       {{.section = "run",
         .name = "integrator",
         .type = Type::choice,
         .meaning = "Classic fourth-order Runge-Kutta, or velocity Verlet (plain Newtonian motion only).",
         .choices = names_of(motion::integrator_names)},
-       stored_by_name_in(member_of<Row>(&Row::integrator), motion::integrator_names)},
-      {{.section = "run",
-        .name = "step",
-        .unit = "time",
-        .meaning = "Time step.",
-        .range = Range::above(0).at_most(0.2),
-        .lists = Lists::one_per_entry,
-        .entries_of = entries_of},
-       stored_in(member_of<Row>(&Row::step))},
-  };
+       stored_by_name_in(member_of<Row>(&Row::integrator), motion::integrator_names)}};
+  return joined(integrator, step_key<Row>("Time step.", 0.2, entries_of));
 }
 
 /// `equilibration`: what that key means; `entries_of` as above.
@@ -194,6 +243,28 @@ std::vector<BoundKey<Row>> tolerance_keys() {
         .meaning = "Energy error per particle of one step above which the step is repeated in smaller parts.",
         .range = Range::above(0)},
        stored_in(member_of<Row>(&Row::energy_tolerance))},
+  };
+}
+
+/// `usual`: the interval where none is set, in words.
+template <class Row>
+std::vector<BoundKey<Row>> sample_interval_key(const std::string& meaning, const std::string& usual) {
+  return {
+      {{.section = "output",
+        .name = "sample_interval",
+        .unit = "time",
+        .meaning = meaning,
+        .range = Range::above(0),
+        .default_text = usual},
+       stored_unless_zero_in(member_of<Row>(&Row::sample_interval))},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> frame_interval_key(const std::string& meaning) {
+  return {
+      {{.section = "output", .name = "frame_interval", .unit = "time", .meaning = meaning, .range = Range::at_least(0)},
+       stored_in(member_of<Row>(&Row::frame_interval))},
   };
 }
 
@@ -264,6 +335,20 @@ std::vector<Key> arranged(const std::vector<BoundKey<Input>>& whole, const std::
     keys.insert(place, bound.key);
   }
   return keys;
+}
+
+/// `command` as typed, without the program's name; `product` and `dropping` as above.
+template <class Input, class Row>
+Schema input_schema(const std::string& command, std::vector<Section> sections, const std::vector<BoundKey<Row>>& keys,
+                    const std::string& product, const std::string& dropping) {
+  Schema schema;
+  schema.introduction = introduction_of(command);
+  schema.sections = std::move(sections);
+  schema.keys = arranged(whole_keys<Input>(), keys);
+  schema.rows = "point";
+  schema.rows_meaning = point_tables_of(product, dropping);
+  schema.owners = commands_with;
+  return schema;
 }
 
 /// Reads a file into its struct, whose rows are `points`; `check` refuses (BadInput) what cannot be run.

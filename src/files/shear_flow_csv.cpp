@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lucy/files/shear_flow_csv.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <array>
 #include <string_view>
-#include <utility>
 
 #include "choice_names.hpp"
-#include "lucy/files/atomic_file.hpp"
 #include "lucy/files/csv.hpp"
 #include "row_cells.hpp"
 
@@ -44,10 +39,7 @@ std::vector<std::string> shear_flow_columns() {
   for (const Setting& setting : settings) columns.emplace_back(setting.name);
   columns.emplace_back("duration");
   columns.emplace_back("replicas");
-  for (const auto name : cases::shear_flow_quantities) {
-    columns.emplace_back(name);
-    columns.push_back(fmt::format("{}_error", name));
-  }
+  for (const auto name : cases::shear_flow_quantities) add_with_error(columns, name);
   for (const auto* name : {"effective_samples", "equilibration_discarded", "worst_energy_error", "energy_drift",
                            "subdivided_steps", "status"})
     columns.emplace_back(name);
@@ -55,9 +47,7 @@ std::vector<std::string> shear_flow_columns() {
 }
 
 void write_shear_flow_csv(const std::filesystem::path& path, std::span<const ShearFlowRow> rows) {
-  std::string text = fmt::format("{}\n", fmt::join(shear_flow_columns(), ","));
-  CsvLine line;
-  for (const ShearFlowRow& row : rows) {
+  write_rows(path, shear_flow_columns(), rows, [](CsvLine& line, const ShearFlowRow& row) {
     line.add(row.settings.particles);
     line.add(name_of(spam::equation_of_state_names, row.settings.equation_of_state));
     line.add(name_of(kernel::weight_names, row.settings.weight));
@@ -66,48 +56,37 @@ void write_shear_flow_csv(const std::filesystem::path& path, std::span<const She
     for (const Setting& setting : settings) line.add(row.settings.*setting.member);
     line.add(row.duration);
     line.add(static_cast<std::int64_t>(row.settings.replicas));
-    for (const auto& estimate : row.estimates) {
-      line.add(estimate.value);
-      line.add(estimate.error);
-    }
+    for (const auto& estimate : row.estimates) add(line, estimate);
     line.add(row.effective_samples);
     line.add(row.equilibration_discarded);
     line.add(row.worst_energy_error);
     line.add(row.energy_drift);
     line.add(row.subdivided_steps);
     line.add(cases::status_name(row.status));
-    text += line.end();
-  }
-  write_file_atomically(path, text);
+  });
 }
 
 std::vector<ShearFlowRow> read_shear_flow_csv(const std::filesystem::path& path) {
-  const CsvFile file(path);
-  require_columns(file, shear_flow_columns(), "shear_flow.csv");
-  std::vector<ShearFlowRow> rows;
-  for (const auto& line : file.rows()) {
-    const RowCells cells(file, line);
-    ShearFlowRow row;
-    row.settings.particles = cells.integer("particles");
-    row.settings.equation_of_state = cells.choice("equation_of_state", spam::equation_of_state_names);
-    row.settings.weight = cells.choice("kernel", kernel::weight_names);
-    row.settings.cooling = cells.choice("cooling", motion::cooling_names);
-    row.settings.strain_rate = cells.number("strain_rate");
-    for (const Setting& setting : settings) row.settings.*setting.member = cells.number(setting.name);
-    row.duration = cells.number("duration");
-    row.settings.duration = row.duration;
-    row.settings.replicas = cells.count("replicas");
-    for (std::size_t i = 0; i < row.estimates.size(); ++i)
-      row.estimates[i] = cells.estimate(cases::shear_flow_quantities[i]);
-    row.effective_samples = cells.number("effective_samples");
-    row.equilibration_discarded = cells.number("equilibration_discarded");
-    row.worst_energy_error = cells.number("worst_energy_error");
-    row.energy_drift = cells.number("energy_drift");
-    row.subdivided_steps = cells.integer("subdivided_steps");
-    row.status = cells.status();
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  return read_rows<ShearFlowRow>(
+      path, shear_flow_columns(), "shear_flow.csv", [](const RowCells& cells, ShearFlowRow& row) {
+        row.settings.particles = cells.integer("particles");
+        row.settings.equation_of_state = cells.choice("equation_of_state", spam::equation_of_state_names);
+        row.settings.weight = cells.choice("kernel", kernel::weight_names);
+        row.settings.cooling = cells.choice("cooling", motion::cooling_names);
+        row.settings.strain_rate = cells.number("strain_rate");
+        for (const Setting& setting : settings) row.settings.*setting.member = cells.number(setting.name);
+        row.duration = cells.number("duration");
+        row.settings.duration = row.duration;
+        row.settings.replicas = cells.count("replicas");
+        for (std::size_t i = 0; i < row.estimates.size(); ++i)
+          row.estimates[i] = cells.estimate(cases::shear_flow_quantities[i]);
+        row.effective_samples = cells.number("effective_samples");
+        row.equilibration_discarded = cells.number("equilibration_discarded");
+        row.worst_energy_error = cells.number("worst_energy_error");
+        row.energy_drift = cells.number("energy_drift");
+        row.subdivided_steps = cells.integer("subdivided_steps");
+        row.status = cells.status();
+      });
 }
 
 }  // namespace lucy::files

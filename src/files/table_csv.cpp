@@ -3,7 +3,6 @@
 #include "lucy/files/table_csv.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "lucy/files/atomic_file.hpp"
 #include "lucy/files/csv.hpp"
@@ -11,19 +10,12 @@
 
 namespace lucy::files {
 
-namespace {
-
 using cases::TableRow;
-
-}  // namespace
 
 std::vector<std::string> table_columns() {
   std::vector<std::string> columns = {"particles", "energy_per_particle", "strain_rate", "step", "duration",
                                       "replicas"};
-  for (const auto name : cases::quantities) {
-    columns.emplace_back(name);
-    columns.push_back(fmt::format("{}_error", name));
-  }
+  for (const auto name : cases::quantities) add_with_error(columns, name);
   for (const auto* name :
        {"effective_samples", "equilibration_discarded", "worst_energy_error", "subdivided_steps", "status"})
     columns.emplace_back(name);
@@ -31,27 +23,20 @@ std::vector<std::string> table_columns() {
 }
 
 void write_table_csv(const std::filesystem::path& path, std::span<const TableRow> rows) {
-  std::string text = fmt::format("{}\n", fmt::join(table_columns(), ","));
-  CsvLine line;
-  for (const TableRow& row : rows) {
+  write_rows(path, table_columns(), rows, [](CsvLine& line, const TableRow& row) {
     line.add(row.particles);
     line.add(row.energy_per_particle);
     line.add(row.strain_rate);
     line.add(row.step);
     line.add(row.duration);
     line.add(static_cast<std::int64_t>(row.replicas));
-    for (const auto& estimate : row.estimates) {
-      line.add(estimate.value);
-      line.add(estimate.error);
-    }
+    for (const auto& estimate : row.estimates) add(line, estimate);
     line.add(row.effective_samples);
     line.add(row.equilibration_discarded);
     line.add(row.worst_energy_error);
     line.add(row.subdivided_steps);
     line.add(cases::status_name(row.status));
-    text += line.end();
-  }
-  write_file_atomically(path, text);
+  });
 }
 
 void write_replicas_csv(const std::filesystem::path& path, std::span<const cases::ReplicaRow> rows) {
@@ -77,12 +62,7 @@ void write_replicas_csv(const std::filesystem::path& path, std::span<const cases
 }
 
 std::vector<TableRow> read_table_csv(const std::filesystem::path& path) {
-  const CsvFile file(path);
-  require_columns(file, table_columns(), "table.csv");
-  std::vector<TableRow> rows;
-  for (const auto& line : file.rows()) {
-    const RowCells cells(file, line);
-    TableRow row;
+  return read_rows<TableRow>(path, table_columns(), "table.csv", [](const RowCells& cells, TableRow& row) {
     row.particles = cells.integer("particles");
     row.energy_per_particle = cells.number("energy_per_particle");
     row.strain_rate = cells.number("strain_rate");
@@ -95,9 +75,7 @@ std::vector<TableRow> read_table_csv(const std::filesystem::path& path) {
     row.worst_energy_error = cells.number("worst_energy_error");
     row.subdivided_steps = cells.integer("subdivided_steps");
     row.status = cells.status();
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  });
 }
 
 }  // namespace lucy::files

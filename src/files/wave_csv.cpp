@@ -14,7 +14,6 @@
 #include <variant>
 
 #include "choice_names.hpp"
-#include "lucy/errors.hpp"
 #include "lucy/files/atomic_file.hpp"
 #include "lucy/files/csv.hpp"
 #include "lucy/files/wave_input.hpp"
@@ -78,19 +77,17 @@ std::string cell_text(const BoundKey<WavePoint>& bound, const WavePoint& point) 
   return fmt::format("{}", std::get<std::int64_t>(*value));
 }
 
-WavePoint read_settings(WaveQuantity quantity, const CsvFile& file, const CsvFile::Row& line) {
-  const RowCells cells(file, line);
+WavePoint read_settings(WaveQuantity quantity, const RowCells& cells) {
   WavePoint point;
   point.quantity = quantity;
   for (const auto& bound : settings_keys(quantity)) {
     const std::string column = column_of(bound.key);
-    const std::string& cell = line.cells[file.column(column)];
+    const std::string& cell = cells.text(column);
     if (cell == nothing(bound.key)) continue;
     switch (bound.key.type) {
       case Type::choice:
         if (std::ranges::find(bound.key.choices, cell) == bound.key.choices.end())
-          throw BadInput(fmt::format("{}:{}: {} is \"{}\" where one of {} was expected", file.path(), line.line, column,
-                                     cell, fmt::join(bound.key.choices, ", ")));
+          cells.refuse_choice(column, cell, fmt::format("{}", fmt::join(bound.key.choices, ", ")));
         bound.binding.set(point, cell);
         break;
       case Type::integer:
@@ -110,16 +107,6 @@ std::vector<std::string> quantity_names(WaveQuantity quantity) {
   return names;
 }
 
-void add_with_error(std::vector<std::string>& columns, std::string_view name) {
-  columns.emplace_back(name);
-  columns.push_back(fmt::format("{}_error", name));
-}
-
-void add(CsvLine& line, const Estimate& estimate) {
-  line.add(estimate.value);
-  line.add(estimate.error);
-}
-
 }  // namespace
 
 std::string wave_file_name(WaveQuantity quantity) {
@@ -137,10 +124,8 @@ std::vector<std::string> wave_columns(WaveQuantity quantity) {
 }
 
 void write_wave_csv(const std::filesystem::path& path, WaveQuantity quantity, std::span<const WaveRow> rows) {
-  std::string text = fmt::format("{}\n", fmt::join(wave_columns(quantity), ","));
   const auto keys = settings_keys(quantity);
-  CsvLine line;
-  for (const WaveRow& row : rows) {
+  write_rows(path, wave_columns(quantity), rows, [&](CsvLine& line, const WaveRow& row) {
     for (const auto& bound : keys) line.add(std::string_view(cell_text(bound, row.settings)));
     for (const auto& [name, member] : numbers) line.add(row.*member);
     for (const Estimate& estimate : row.estimates) add(line, estimate);
@@ -149,30 +134,23 @@ void write_wave_csv(const std::filesystem::path& path, WaveQuantity quantity, st
     line.add(row.worst_energy_error);
     line.add(row.subdivided_steps);
     line.add(cases::status_name(row.status));
-    text += line.end();
-  }
-  write_file_atomically(path, text);
+  });
 }
 
 std::vector<WaveRow> read_wave_csv(const std::filesystem::path& path, WaveQuantity quantity) {
-  const CsvFile file(path);
-  require_columns(file, wave_columns(quantity), wave_file_name(quantity));
   const auto names = quantity_names(quantity);
-  std::vector<WaveRow> rows;
-  for (const auto& line : file.rows()) {
-    const RowCells cells(file, line);
-    WaveRow row;
-    row.settings = read_settings(quantity, file, line);
-    for (const auto& [name, member] : numbers) row.*member = cells.number(name);
-    for (std::size_t i = 0; i < names.size(); ++i) row.estimates[i] = cells.estimate(names[i]);
-    row.preferred = cells.choice("preferred_form", form_names());
-    row.by_likelihood = cells.choice("preferred_by", judges);
-    row.worst_energy_error = cells.number("worst_energy_error");
-    row.subdivided_steps = cells.integer("subdivided_steps");
-    row.status = cells.status();
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  return read_rows<WaveRow>(path, wave_columns(quantity), wave_file_name(quantity),
+                            [&](const RowCells& cells, WaveRow& row) {
+                              row.settings = read_settings(quantity, cells);
+                              for (const auto& [name, member] : numbers) row.*member = cells.number(name);
+                              for (std::size_t i = 0; i < names.size(); ++i)
+                                row.estimates[i] = cells.estimate(names[i]);
+                              row.preferred = cells.choice("preferred_form", form_names());
+                              row.by_likelihood = cells.choice("preferred_by", judges);
+                              row.worst_energy_error = cells.number("worst_energy_error");
+                              row.subdivided_steps = cells.integer("subdivided_steps");
+                              row.status = cells.status();
+                            });
 }
 
 bool same_settings(const WavePoint& one, const WavePoint& other) {

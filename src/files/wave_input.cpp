@@ -56,34 +56,12 @@ std::vector<BoundKey<P>> wave_keys(WaveQuantity quantity) {
   };
 }
 
-std::vector<BoundKey<P>> step_key() {
-  return {
-      {{.section = "run",
-        .name = "step",
-        .unit = "time",
-        .meaning = "Time step of the Runge-Kutta integration; that of atoms at most 0.2.",
-        .range = Range::above(0).at_most(0.5)},
-       stored_in(member_of<P>(&P::step))},
-  };
-}
-
 std::vector<BoundKey<P>> output_keys() {
-  return {
-      {{.section = "output",
-        .name = "sample_interval",
-        .unit = "time",
-        .meaning = "Time between samples of the amplitude, a whole number of steps.",
-        .range = Range::above(0),
-        .default_text = "the most whole steps within 2 and duration/200, at least one"},
-       stored_unless_zero_in(&P::sample_interval)},
-      {{.section = "output",
-        .name = "frame_interval",
-        .unit = "time",
-        .meaning = "Time between recorded configurations of the first replica, a whole number of samples, from the "
-                   "start of the wave on; 0 records none.",
-        .range = Range::at_least(0)},
-       stored_in(&P::frame_interval)},
-  };
+  return joined(sample_interval_key<P>("Time between samples of the amplitude, a whole number of steps.",
+                                       "the most whole steps within 2 and duration/200, at least one"),
+                frame_interval_key<P>(
+                    "Time between recorded configurations of the first replica, a whole number of samples, from "
+                    "the start of the wave on; 0 records none."));
 }
 
 }  // namespace
@@ -95,30 +73,26 @@ std::string_view command_name(WaveQuantity quantity) {
 std::vector<BoundKey<P>> wave_point_keys(WaveQuantity quantity) {
   auto system = joined(particles_key<P>(Lists::multiply), density_keys<P>());
   if (quantity == WaveQuantity::shear) system = joined(system, reading_keys());
-  return joined(system, weight_keys<P>(), fluid_keys<P>(), start_keys<P>(), wave_keys(quantity), step_key(),
+  return joined(system, weight_keys<P>(), fluid_keys<P>(), start_keys<P>(), wave_keys(quantity),
+                step_key<P>("Time step of the Runge-Kutta integration; that of atoms at most 0.2.", 0.5, ""),
                 length_keys<P>("Time run first without the wave and not recorded, per replica.", numbers_of_particles),
                 replica_keys<P>(), tolerance_keys<P>(), output_keys());
 }
 
 Schema wave_schema(WaveQuantity quantity) {
   const bool shear = quantity == WaveQuantity::shear;
-  Schema schema;
-  schema.introduction = introduction_of(std::string(command_name(quantity)));
-  schema.sections = {
-      {"", "The experiment."},
-      {"system", "What is in the periodic box."},
-      {"kernel", "The weight function, which for atoms is the pair potential."},
-      {"fluid", "What the smooth particles are made of."},
-      {"start", "How they start."},
-      {"wave", shear ? "The sinusoidal velocity that decays." : "The sinusoidal temperature that decays."},
-      {"run", "How it is integrated, how long, how often."},
-      {"output", "What is recorded."}};
-  schema.foreign = {{"shear", "a wave decays in a box at rest; [shear] belongs to an input of `lucy sweep`"},
-                    {"correlation", "it belongs to an input of `lucy green-kubo`"},
-                    {"isentropic", "it belongs to an input of `lucy isomorphism`"}};
-  schema.rows = "point";
-  schema.rows_meaning = point_tables_of("the numbers of particles", "particles");
-  schema.keys = arranged(whole_keys<WaveInput>(), wave_point_keys(quantity));
+  Schema schema = input_schema<WaveInput>(
+      std::string(command_name(quantity)),
+      {{"", "The experiment."},
+       {"system", "What is in the periodic box."},
+       {"kernel", "The weight function, which for atoms is the pair potential."},
+       {"fluid", "What the smooth particles are made of."},
+       {"start", "How they start."},
+       {"wave", shear ? "The sinusoidal velocity that decays." : "The sinusoidal temperature that decays."},
+       {"run", "How it is integrated, how long, how often."},
+       {"output", "What is recorded."}},
+      wave_point_keys(quantity), "the numbers of particles", "particles");
+  schema.lacking = {{"shear", "a wave decays in a box at rest"}};
   return schema;
 }
 
@@ -135,10 +109,6 @@ WaveInput read_wave(WaveQuantity quantity, const std::filesystem::path& file, st
 std::string wave_resolved_toml(const WaveInput& input) {
   const std::string what = input.quantity == WaveQuantity::shear ? "shear waves" : "temperature waves";
   return resolved_input(what, wave_schema(input.quantity), input, wave_point_keys(input.quantity));
-}
-
-std::string explain_wave(WaveQuantity quantity, std::string_view filter) {
-  return explain(wave_schema(quantity), filter);
 }
 
 }  // namespace lucy::files

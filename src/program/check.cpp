@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "lucy/archive.hpp"
+#include "lucy/files/all_inputs.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/isomorphism_input.hpp"
-#include "lucy/files/schema.hpp"
 #include "lucy/files/shear_flow_input.hpp"
 #include "lucy/files/shear_flow_text.hpp"
 #include "lucy/files/table_text.hpp"
@@ -185,8 +185,7 @@ Planned planned(const cases::CouettePoint& point) {
   measurable.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
   measurable.frame_interval = 0.0;
   measurable.particles = std::min(point.particles, most_particles);
-  return {std::make_unique<CouetteStatePoint>(point, "", files::H5mdAuthorship{}),
-          std::make_unique<CouetteStatePoint>(measurable, "", files::H5mdAuthorship{})};
+  return {std::make_unique<CouetteStatePoint>(point), std::make_unique<CouetteStatePoint>(measurable)};
 }
 
 Planned planned(const cases::GreenKuboPoint& point) {
@@ -204,8 +203,7 @@ Planned planned(const cases::GreenKuboPoint& point) {
   measurable.duration = 10.0 * measurable.length;
   measurable.energy_band = std::numeric_limits<double>::max();  // the lattice, unprepared, may leave that of a fluid
   measurable.particles = std::min(point.particles, most_particles);
-  return {std::make_unique<GreenKuboStatePoint>(point, "", files::H5mdAuthorship{}),
-          std::make_unique<GreenKuboStatePoint>(measurable, "", files::H5mdAuthorship{})};
+  return {std::make_unique<GreenKuboStatePoint>(point), std::make_unique<GreenKuboStatePoint>(measurable)};
 }
 
 Planned planned(const cases::IsomorphismPoint& point) {
@@ -221,8 +219,7 @@ Planned planned(const cases::ShearFlowPoint& point) {
   measurable.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
   measurable.frame_interval = 0.0;
   measurable.particles = std::min(point.particles, most_particles);
-  return {std::make_unique<ShearFlowStatePoint>(point, "", files::H5mdAuthorship{}),
-          std::make_unique<ShearFlowStatePoint>(measurable, "", files::H5mdAuthorship{})};
+  return {std::make_unique<ShearFlowStatePoint>(point), std::make_unique<ShearFlowStatePoint>(measurable)};
 }
 
 Planned planned(const cases::WavePoint& point) {
@@ -234,8 +231,7 @@ Planned planned(const cases::WavePoint& point) {
   measurable.frame_interval = static_cast<double>(most_samples) * measurable.sample_interval;
   measurable.duration = 1e6 * measurable.sample_interval;
   measurable.particles = std::min(point.particles, most_particles);
-  return {std::make_unique<WaveStatePoint>(point, "", files::H5mdAuthorship{}),
-          std::make_unique<WaveStatePoint>(measurable, "", files::H5mdAuthorship{})};
+  return {std::make_unique<WaveStatePoint>(point), std::make_unique<WaveStatePoint>(measurable)};
 }
 
 struct Measurement {
@@ -473,26 +469,24 @@ int predict(const Input& input, const std::vector<std::string>& idle_keys) {
 
 }  // namespace
 
-int check(const InputRequest& request, std::optional<InputKind> kind) {
-  if (!kind) {
-    // A sweep needs a strain rate, from its file or from --set.
-    const bool sheared =
-        files::has_section(request.input, "shear") ||
-        std::ranges::any_of(request.overrides, [](const std::string& text) { return text.starts_with("shear."); });
-    kind = files::has_section(request.input, "isentropic")                ? InputKind::isomorphism
-           : files::has_section(request.input, "wave")                    ? InputKind::shear_wave
-           : files::has_section(request.input, "fluid") && sheared        ? InputKind::shear_flow
-           : files::has_section(request.input, "correlation") || !sheared ? InputKind::green_kubo
-                                                                          : InputKind::sweep;
+int check(const InputRequest& request, std::optional<files::InputKind> kind) {
+  switch (kind ? *kind : files::kind_of_input(request.input, request.overrides)) {
+    case files::InputKind::sweep: {
+      const files::SweepInput input = files::read_sweep(request.input, request.overrides);
+      return predict(input, keys_without_effect(input.points));
+    }
+    case files::InputKind::green_kubo:
+      return predict(files::read_green_kubo(request.input, request.overrides), {});
+    case files::InputKind::isomorphism:
+      return predict(files::read_isomorphism(request.input, request.overrides), {});
+    case files::InputKind::shear_flow:
+      return predict(files::read_shear_flow(request.input, request.overrides), {});
+    case files::InputKind::shear_wave:
+      return predict(files::read_wave(cases::WaveQuantity::shear, request.input, request.overrides), {});
+    case files::InputKind::temperature_wave:
+      break;
   }
-  if (*kind == InputKind::green_kubo) return predict(files::read_green_kubo(request.input, request.overrides), {});
-  if (*kind == InputKind::isomorphism) return predict(files::read_isomorphism(request.input, request.overrides), {});
-  if (*kind == InputKind::shear_flow) return predict(files::read_shear_flow(request.input, request.overrides), {});
-  for (const auto& [wave, quantity] : {std::pair{InputKind::shear_wave, cases::WaveQuantity::shear},
-                                       {InputKind::temperature_wave, cases::WaveQuantity::temperature}})
-    if (*kind == wave) return predict(files::read_wave(quantity, request.input, request.overrides), {});
-  const files::SweepInput input = files::read_sweep(request.input, request.overrides);
-  return predict(input, keys_without_effect(input.points));
+  return predict(files::read_wave(cases::WaveQuantity::temperature, request.input, request.overrides), {});
 }
 
 }  // namespace lucy::program

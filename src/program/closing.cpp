@@ -68,6 +68,17 @@ void print_files(const std::filesystem::path& directory, std::vector<std::string
   print("{}\n", line);
 }
 
+void print_closing(const std::filesystem::path& directory, const std::string& closing,
+                   const std::vector<Drawing>& drawings, const std::vector<std::string>& names) {
+  print("\n{}\n", closing);
+  std::fflush(stdout);
+  std::vector<Drawing> missing = drawings;
+  std::error_code error;
+  std::erase_if(missing, [&](const Drawing& drawing) { return std::filesystem::exists(drawing.picture, error); });
+  draw(missing);
+  print_files(directory, names);
+}
+
 int tell_failures(std::size_t failed, std::size_t points) {
   if (failed == 0) return 0;
   std::fflush(stdout);

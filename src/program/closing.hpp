@@ -22,7 +22,7 @@ namespace lucy::program {
 struct Drawing {
   std::string script;                  ///< in analysis/
   std::vector<std::string> arguments;  ///< of the script
-  std::filesystem::path picture;       ///< what it writes; never asked whether it is there
+  std::filesystem::path picture;       ///< what it writes; draw() never asks whether it is there
 };
 
 /// Draws them one after the other; prints what scripts say, and what could not be drawn.
@@ -37,6 +37,10 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
 
 /// "In DIR: table.csv, replicas.csv, ..." with those of `names` that are there, wrapped.
 void print_files(const std::filesystem::path& directory, std::vector<std::string> names);
+
+/// What follows the table of a run: `closing`, those of `drawings` whose pictures are not there yet, and print_files.
+void print_closing(const std::filesystem::path& directory, const std::string& closing,
+                   const std::vector<Drawing>& drawings, const std::vector<std::string>& names);
 
 /// The exit code of a run of so many points: 0, or 1 after a word on standard error about those that failed.
 int tell_failures(std::size_t failed, std::size_t points);

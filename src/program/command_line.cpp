@@ -277,21 +277,26 @@ int run_program(int argument_count, const char* const* argument_values) {
 
   auto* check_command = program.add_subcommand("check", "Validate an input and predict its cost; run nothing");
   add_input(check_command);
-  check_command->footer("\nExample:\n  lucy check inputs/posch1995_table1.toml --set run.replicas=8");
+  check_command->footer(
+      "\nWithout --for, a file is taken for an input of the command whose sections it writes:\n"
+      "  [isentropic]                         isomorphism\n"
+      "  [fluid] or [start], with [shear]     shear-flow\n"
+      "  [fluid] or [start], or [wave]        shear-wave or temperature-wave, the one that accepts it; where both do,\n"
+      "                                       --for is asked for\n"
+      "  [shear], without [correlation]       sweep\n"
+      "  anything else                        green-kubo\n"
+      "\nExamples:\n"
+      "  lucy check inputs/posch1995_table1.toml --set run.replicas=8\n"
+      "  lucy check inputs/temperature_wave.toml --for temperature-wave");
 
-  const std::map<std::string, InputKind> kinds = {{"sweep", InputKind::sweep},
-                                                  {"green-kubo", InputKind::green_kubo},
-                                                  {"isomorphism", InputKind::isomorphism},
-                                                  {"shear-flow", InputKind::shear_flow},
-                                                  {"shear-wave", InputKind::shear_wave},
-                                                  {"temperature-wave", InputKind::temperature_wave}};
-  std::optional<InputKind> kind;
+  const std::map<std::string, files::InputKind> kinds(files::command_names.begin(), files::command_names.end());
+  std::optional<files::InputKind> kind;
   const auto add_kind = [&](CLI::App* command, const char* text) {
     command->add_option("--for", kind, text)->transform(CLI::CheckedTransformer(kinds))->type_name("COMMAND");
   };
   add_kind(check_command,
            "sweep, green-kubo, isomorphism, shear-flow, shear-wave or temperature-wave; default: by the sections of "
-           "the file");
+           "the file, as told below");
 
   auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
   std::string filter;
@@ -411,7 +416,7 @@ int run_program(int argument_count, const char* const* argument_values) {
     if (shear_wave_command->parsed()) return wave(request, cases::WaveQuantity::shear);
     if (temperature_wave_command->parsed()) return wave(request, cases::WaveQuantity::temperature);
     if (check_command->parsed()) return check(request, kind);
-    if (explain_command->parsed()) return explain(filter, kind.value_or(InputKind::sweep));
+    if (explain_command->parsed()) return explain(filter, kind.value_or(files::InputKind::sweep));
     if (viscosity_command->parsed()) {
       if (results.size() < 2)
         throw BadInput("lucy viscosity needs the directory of a sweep and that of a Green-Kubo run, in this order");

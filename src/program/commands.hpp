@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lucy/cases/wave.hpp"
+#include "lucy/files/all_inputs.hpp"
 
 namespace lucy::program {
 
@@ -86,17 +87,11 @@ struct FieldsRequest {
 /// Density, velocity, temperature, pressure and energy of a saved state on a grid, and their spectra (fields.cpp).
 int fields(const FieldsRequest& request);
 
-/// The commands that read an input file.
-enum class InputKind { sweep, green_kubo, isomorphism, shear_flow, shear_wave, temperature_wave };
-
-/// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, a file with an [isentropic]
-/// section is one of isomorphism, a file with a [wave] section one of shear-wave, a file with a [fluid] and a [shear]
-/// section one of shear-flow, a file with a [correlation] section or without a [shear] section one of green-kubo, any
-/// other one of a sweep.
-int check(const InputRequest& request, std::optional<InputKind> kind);
+/// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, it is that of kind_of_input.
+int check(const InputRequest& request, std::optional<files::InputKind> kind);
 
 /// Prints the keys of an input file (explain.cpp). `filter`: a section or a key, or empty.
-int explain(const std::string& filter, InputKind kind);
+int explain(const std::string& filter, files::InputKind kind);
 
 /// A table.csv, or the directory that holds it, beside a published table: by name, or a file (compare.cpp).
 int compare(const std::filesystem::path& table, const std::string& published);

@@ -3,8 +3,8 @@
 //
 // What the program knows of an experiment, whatever its physics: a list of state points, each run as independent
 // replicas that advance in intervals until they reach a milestone, and are then concluded together. The scheduler runs
-// any such list; run_experiment.hpp owns the directory around it. Couette sweeps are in couette_point.hpp, Green-Kubo
-// runs in green_kubo_point.hpp.
+// any such list; run_experiment.hpp owns the directory around it. What all cases have in common is in case_point.hpp
+// and case_experiment.hpp.
 #pragma once
 
 #include <cstddef>

@@ -6,12 +6,8 @@
 // that another program sampled, which takes no time worth a checkpoint.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "lucy/errors.hpp"
@@ -24,6 +20,7 @@
 #include "lucy/files/schema.hpp"
 #include "lucy/files/series_file.hpp"
 #include "program/build_identity.hpp"
+#include "program/case_experiment.hpp"
 #include "program/closing.hpp"
 #include "program/commands.hpp"
 #include "program/green_kubo_point.hpp"
@@ -38,66 +35,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> result_names(std::size_t states) {
+Notes notes_of(const std::vector<cases::GreenKuboRow>& rows) { return {failures_of(rows), warnings_of(rows), ""}; }
+
+/// Returns the exit code. `point_files`: of the states.
+int print_rows(const fs::path& directory, const std::vector<cases::GreenKuboRow>& rows, const std::string& closing,
+               bool draw, const std::vector<std::string>& point_files) {
+  print("{}", files::format_green_kubo(rows));
+  std::vector<Drawing> drawings;
+  if (draw) drawings = {{"plot_green_kubo.py", {directory.string()}, directory / "correlation.png"}};
   std::vector<std::string> names = {"viscosity.csv", "correlation.csv", "pairs.csv",       "notes.txt",
                                     "input.toml",    "provenance.json", "correlation.png", "correlation.svg"};
-  for (std::size_t i = 0; i < states; ++i) names.push_back(point_file_name(i));
-  return names;
-}
-
-Drawing drawing_of(const fs::path& directory) {
-  return {"plot_green_kubo.py", {directory.string()}, directory / "correlation.png"};
-}
-
-Notes notes_of(const std::vector<cases::GreenKuboRow>& rows) {
-  Notes notes;
-  notes.failures = failures_of(rows);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (!rows[i].warnings.empty()) notes.warnings[i] = rows[i].warnings;
-  return notes;
-}
-
-int print_rows(const fs::path& directory, const std::vector<cases::GreenKuboRow>& rows, const std::string& closing,
-               bool draw) {
-  print("{}", files::format_green_kubo(rows));
-  print("\n{}\n", closing);
-  std::fflush(stdout);
-  std::error_code error;
-  if (draw && !fs::exists(directory / "correlation.png", error)) program::draw({drawing_of(directory)});
-  print_files(directory, result_names(rows.size()));
+  names.insert(names.end(), point_files.begin(), point_files.end());
+  print_closing(directory, closing, drawings, names);
   return tell_failures(rows);
 }
 
-class GreenKubo final : public Experiment {
+class GreenKubo final : public CaseExperiment<files::GreenKuboInput, GreenKuboStatePoint, cases::GreenKuboRow> {
  public:
-  GreenKubo(files::GreenKuboInput input, bool pictures) : input_(std::move(input)), pictures_(pictures) {}
+  GreenKubo(files::GreenKuboInput input, bool pictures) : CaseExperiment(std::move(input)), pictures_(pictures) {}
 
   std::string kind() const override { return "Green-Kubo run"; }
   std::string resolved() const override { return files::green_kubo_resolved_toml(input_); }
   std::string results_file() const override { return "viscosity.csv"; }
-  int threads() const override { return input_.threads; }
-  double checkpoint_interval() const override { return input_.checkpoint_interval; }
-  std::uint64_t seed() const override { return input_.points.front().seed; }
-  std::string generator() const override {
-    return "64-bit Mersenne twister (std::mt19937_64), one per replica, seeded from the seed, the replica's number, N "
-           "and E/N";
-  }
-
-  std::vector<StatePoint*> prepare(const fs::path& directory, const files::H5mdAuthorship& authorship) override {
-    std::vector<StatePoint*> points;
-    for (const auto& point : input_.points) {
-      points_.push_back(
-          std::make_unique<GreenKuboStatePoint>(point, directory / point_file_name(points_.size()), authorship));
-      points.push_back(points_.back().get());
-    }
-    return points;
-  }
-
-  std::vector<double> seconds_of_points() const override {
-    std::vector<double> seconds;
-    for (const auto& point : points_) seconds.push_back(point->seconds());
-    return seconds;
-  }
 
   void write_companions(const fs::path& directory) override {
     std::vector<cases::GreenKuboResult> results;
@@ -111,29 +70,25 @@ class GreenKubo final : public Experiment {
   }
 
   void write_results(const fs::path& directory) override {
-    files::write_viscosity_csv(directory / "viscosity.csv", rows_);
+    files::write_viscosity_csv(directory / results_file(), rows_);
   }
 
   void read_back(const fs::path& directory) override {
-    const fs::path table = directory / "viscosity.csv";
+    const fs::path table = directory / results_file();
     rows_ = files::read_viscosity_csv(table);
-    const auto is_of = [](const cases::GreenKuboRow& row, const cases::GreenKuboPoint& point) {
+    notes_beside(table, rows_, input_.points, [](const cases::GreenKuboRow& row, const cases::GreenKuboPoint& point) {
       return row.particles == point.particles && row.energy_per_particle == point.energy_per_particle;
-    };
-    const Notes notes = notes_beside(table, rows_, input_.points, is_of);
-    for (const auto& [row, sentences] : notes.warnings)
-      if (row < rows_.size()) rows_[row].warnings = sentences;
+    });
   }
 
   int print(const fs::path& directory, const std::string& closing, bool draw) override {
-    return print_rows(directory, rows_, closing, draw && pictures_);
+    return print_rows(directory, rows_, closing, draw && pictures_, with_point_files({}));
   }
 
  private:
-  files::GreenKuboInput input_;
+  std::string also_seeded_from() const override { return ", N and E/N"; }
+
   bool pictures_;
-  std::vector<std::unique_ptr<GreenKuboStatePoint>> points_;
-  std::vector<cases::GreenKuboRow> rows_;
 };
 
 /// The columns that are asked for, or else those with the usual names.
@@ -221,7 +176,7 @@ int green_kubo_series(const SeriesRequest& request) {
   return print_rows(
       directory, {result.row},
       fmt::format("{} rows of {}, one every {}.", series.pxy.size(), request.file.string(), series.sample_interval),
-      request.pictures);
+      request.pictures, {});
 }
 
 }  // namespace lucy::program

@@ -4,52 +4,31 @@
 // One state of a Green-Kubo run, as the scheduler runs it.
 #pragma once
 
-#include <filesystem>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "lucy/cases/green_kubo.hpp"
 #include "lucy/cases/green_kubo_table.hpp"
-#include "program/experiment.hpp"
+#include "program/case_point.hpp"
 
 namespace lucy::program {
 
-class GreenKuboStatePoint final : public StatePoint {
+class GreenKuboStatePoint final
+    : public NotingStatePoint<cases::GreenKuboPoint, cases::GreenKuboRun, cases::GreenKuboResult> {
  public:
-  /// `series`: where the state's H5MD file goes.
-  GreenKuboStatePoint(const cases::GreenKuboPoint& settings, std::filesystem::path series,
-                      const files::H5mdAuthorship& authorship);
+  using NotingStatePoint::NotingStatePoint;
 
+  /// "N = 1024, E/N = 1"
   std::string label() const override;
   std::string identity() const override;
-  std::int64_t particles() const override { return settings_.particles; }
-  int replicas() const override { return settings_.replicas; }
-  bool records_frames() const override { return settings_.frame_interval > 0.0; }
-  std::vector<std::int64_t> milestones() const override;
+  std::vector<std::int64_t> milestones() const override { return {cases::interval_count(settings())}; }
   double interval_cost() const override;
-  std::unique_ptr<Replica> start(int replica, int threads) const override;
-  void note(int number, const Replica& replica) override;
   statistics::Estimate estimate() const override;
-  bool conclude(std::size_t stage, std::span<const Arrived> replicas) override;
-  void fail(int replica, const std::string& message) override;
-  void forget_notes() override;
-
-  /// Once it is concluded or has failed.
-  const cases::GreenKuboResult& result() const { return result_; }
-  double seconds() const { return seconds_; }
 
  private:
-  cases::GreenKuboPoint settings_;
-  std::filesystem::path series_;
-  files::H5mdAuthorship authorship_;
-  cases::GreenKuboResult result_;
-  double seconds_ = 0.0;
-  mutable std::mutex notes_lock_;
-  std::vector<cases::GreenKuboRecord> notes_;  // by replica
+  std::optional<cases::GreenKuboResult> result_at(std::size_t stage, std::span<const Arrived> replicas,
+                                                  std::span<const Record> records) override;
+  cases::GreenKuboResult failed_result(const std::string& reason) const override;
 };
-
-/// "N = 1024, E/N = 1"
-std::string state_label(const cases::GreenKuboPoint& point);
 
 }  // namespace lucy::program

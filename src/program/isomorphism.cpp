@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "lucy/files/isomorphism_csv.hpp"
 #include "lucy/files/isomorphism_input.hpp"
 #include "lucy/files/isomorphism_text.hpp"
+#include "program/case_experiment.hpp"
 #include "program/closing.hpp"
 #include "program/commands.hpp"
 #include "program/isomorphism_point.hpp"
@@ -39,39 +39,16 @@ int tell_differences(const std::vector<cases::IsomorphismRow>& rows) {
   return 1;
 }
 
-class Isomorphism final : public Experiment {
+class Isomorphism final : public CaseExperiment<files::IsomorphismInput, IsomorphismStatePoint, cases::IsomorphismRow> {
  public:
-  explicit Isomorphism(files::IsomorphismInput input) : input_(std::move(input)) {}
+  using CaseExperiment::CaseExperiment;
 
   std::string kind() const override { return "isomorphism run"; }
   std::string resolved() const override { return files::isomorphism_resolved_toml(input_); }
   std::string results_file() const override { return "isomorphism.csv"; }
-  int threads() const override { return input_.threads; }
-  double checkpoint_interval() const override { return input_.checkpoint_interval; }
-  std::uint64_t seed() const override { return input_.points.front().seed; }
-  std::string generator() const override {
-    return "64-bit Mersenne twister (std::mt19937_64), one per replica, seeded from the seed, the replica's number, N, "
-           "E/N and the strain rate";
-  }
-
-  std::vector<StatePoint*> prepare(const fs::path& /*directory*/,
-                                   const files::H5mdAuthorship& /*authorship*/) override {
-    std::vector<StatePoint*> points;
-    for (const auto& point : input_.points) {
-      points_.push_back(std::make_unique<IsomorphismStatePoint>(point));
-      points.push_back(points_.back().get());
-    }
-    return points;
-  }
-
-  std::vector<double> seconds_of_points() const override {
-    std::vector<double> seconds;
-    for (const auto& point : points_) seconds.push_back(point->seconds());
-    return seconds;
-  }
 
   void write_companions(const fs::path& directory) override {
-    for (const auto& point : points_) rows_.push_back(point->row());
+    for (const auto& point : points_) rows_.push_back(point->result());
     Notes notes;
     notes.failures = failures_of(rows_);
     for (const auto& row : rows_)
@@ -80,11 +57,11 @@ class Isomorphism final : public Experiment {
   }
 
   void write_results(const fs::path& directory) override {
-    files::write_isomorphism_csv(directory / "isomorphism.csv", rows_);
+    files::write_isomorphism_csv(directory / results_file(), rows_);
   }
 
   void read_back(const fs::path& directory) override {
-    const fs::path table = directory / "isomorphism.csv";
+    const fs::path table = directory / results_file();
     rows_ = files::read_isomorphism_csv(table);
     const auto is_of = [](const cases::IsomorphismRow& row, const cases::IsomorphismPoint& point) {
       return row.particles == point.particles && row.strain_rate == point.strain_rate &&
@@ -95,16 +72,13 @@ class Isomorphism final : public Experiment {
 
   int print(const fs::path& directory, const std::string& closing, bool /*draw*/) override {
     program::print("{}", files::format_isomorphism(rows_));
-    program::print("\n{}\n", closing);
-    print_files(directory, {"isomorphism.csv", "notes.txt", "input.toml", "provenance.json"});
+    print_closing(directory, closing, {}, {results_file(), "notes.txt", "input.toml", "provenance.json"});
     const int differences = tell_differences(rows_);
     return std::max(differences, tell_failures(rows_));
   }
 
  private:
-  files::IsomorphismInput input_;
-  std::vector<std::unique_ptr<IsomorphismStatePoint>> points_;
-  std::vector<cases::IsomorphismRow> rows_;
+  std::string also_seeded_from() const override { return ", N, E/N and the strain rate"; }
 };
 
 }  // namespace

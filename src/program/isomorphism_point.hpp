@@ -1,7 +1,8 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One case of an isomorphism run, as the scheduler runs it.
+// One case of an isomorphism run, as the scheduler runs it. What is found is whether anything differs: there is no
+// estimate on the way.
 #pragma once
 
 #include <string>
@@ -9,37 +10,24 @@
 
 #include "lucy/cases/isomorphism.hpp"
 #include "lucy/cases/isomorphism_table.hpp"
-#include "program/experiment.hpp"
+#include "program/case_point.hpp"
 
 namespace lucy::program {
 
-class IsomorphismStatePoint final : public StatePoint {
+class IsomorphismStatePoint final
+    : public CaseStatePoint<cases::IsomorphismPoint, cases::IsomorphismRun, cases::IsomorphismRow> {
  public:
-  explicit IsomorphismStatePoint(const cases::IsomorphismPoint& settings) : settings_(settings) {}
+  using CaseStatePoint::CaseStatePoint;
 
   std::string label() const override;
   std::string identity() const override;
-  std::int64_t particles() const override { return settings_.particles; }
-  int replicas() const override { return settings_.replicas; }
-  bool records_frames() const override { return false; }
-  std::vector<std::int64_t> milestones() const override { return {cases::interval_count(settings_)}; }
+  std::vector<std::int64_t> milestones() const override { return {cases::interval_count(settings())}; }
   double interval_cost() const override;
-  std::unique_ptr<Replica> start(int replica, int threads) const override;
-  /// What is found is whether anything differs: there is no estimate on the way.
-  void note(int /*number*/, const Replica& /*replica*/) override {}
-  statistics::Estimate estimate() const override;
-  bool conclude(std::size_t stage, std::span<const Arrived> replicas) override;
-  void fail(int replica, const std::string& message) override;
-  void forget_notes() override {}
-
-  /// Once it is concluded or has failed.
-  const cases::IsomorphismRow& row() const { return row_; }
-  double seconds() const { return seconds_; }
 
  private:
-  cases::IsomorphismPoint settings_;
-  cases::IsomorphismRow row_;
-  double seconds_ = 0.0;
+  std::optional<cases::IsomorphismRow> result_at(std::size_t stage, std::span<const Arrived> replicas,
+                                                 std::span<const Record> records) override;
+  cases::IsomorphismRow failed_result(const std::string& reason) const override;
 };
 
 }  // namespace lucy::program

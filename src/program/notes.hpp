@@ -44,8 +44,17 @@ std::map<std::size_t, std::string> failures_of(const std::vector<Row>& rows) {
   return failures;
 }
 
-/// The notes beside a table that was read back; rows that failed are told why again. Throws BadInput when these are not
-/// the rows of `points`, each of which is_of(row, point).
+/// Of rows that have warnings.
+template <class Row>
+std::map<std::size_t, std::vector<std::string>> warnings_of(const std::vector<Row>& rows) {
+  std::map<std::size_t, std::vector<std::string>> warnings;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!rows[i].warnings.empty()) warnings[i] = rows[i].warnings;
+  return warnings;
+}
+
+/// The notes beside a table that was read back; rows get their warnings again, and those that failed are told why.
+/// Throws BadInput when these are not the rows of `points`, each of which is_of(row, point).
 template <class Row, class Point, class IsOf>
 Notes notes_beside(const std::filesystem::path& table, std::vector<Row>& rows, const std::vector<Point>& points,
                    IsOf is_of) {
@@ -55,6 +64,9 @@ Notes notes_beside(const std::filesystem::path& table, std::vector<Row>& rows, c
   Notes notes = read_notes(directory / "notes.txt");
   for (const auto& [row, reason] : notes.failures)
     if (row < rows.size() && rows[row].status == cases::RowStatus::failed) rows[row].failure = reason;
+  if constexpr (requires(Row row) { row.warnings; })
+    for (const auto& [row, sentences] : notes.warnings)
+      if (row < rows.size()) rows[row].warnings = sentences;
   return notes;
 }
 

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -17,12 +15,12 @@
 #include "lucy/files/input.hpp"
 #include "lucy/files/table_csv.hpp"
 #include "lucy/files/table_text.hpp"
+#include "program/case_experiment.hpp"
 #include "program/closing.hpp"
 #include "program/commands.hpp"
 #include "program/couette_point.hpp"
 #include "program/notes.hpp"
 #include "program/run_experiment.hpp"
-#include "program/scheduler.hpp"
 
 namespace lucy::program {
 
@@ -73,51 +71,25 @@ std::vector<std::string> notes_on(const std::vector<cases::CouettePoint>& points
   return notes;
 }
 
-/// What is not drawn yet.
 std::vector<Drawing> drawings_of(const fs::path& directory, const std::vector<cases::CouettePoint>& points) {
-  std::vector<Drawing> drawings;
+  std::vector<Drawing> drawings = {{"plot_viscosity.py", {directory.string()}, directory / "viscosity.png"}};
   std::error_code error;
-  if (const auto picture = directory / "viscosity.png"; !fs::exists(picture, error))
-    drawings.push_back({"plot_viscosity.py", {directory.string()}, picture});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto series = directory / point_file_name(i);
     const auto picture = directory / fmt::format("configuration_{:03}.png", i + 1);
-    if (points[i].frame_interval > 0.0 && fs::exists(series, error) && !fs::exists(picture, error))
+    if (points[i].frame_interval > 0.0 && fs::exists(series, error))
       drawings.push_back({"plot_configuration.py", {series.string(), picture.string()}, picture});
   }
   return drawings;
 }
 
-class Sweep final : public Experiment {
+class Sweep final : public CaseExperiment<files::SweepInput, CouetteStatePoint, cases::TableRow> {
  public:
-  explicit Sweep(files::SweepInput input) : input_(std::move(input)) {}
+  using CaseExperiment::CaseExperiment;
 
   std::string kind() const override { return "sweep"; }
   std::string resolved() const override { return files::resolved_toml(input_); }
   std::string results_file() const override { return "table.csv"; }
-  int threads() const override { return input_.threads; }
-  double checkpoint_interval() const override { return input_.checkpoint_interval; }
-  std::uint64_t seed() const override { return input_.points.front().seed; }
-  std::string generator() const override {
-    return "64-bit Mersenne twister (std::mt19937_64), one per replica, seeded from the seed, the replica's "
-           "number, N, E/N and the strain rate";
-  }
-
-  std::vector<StatePoint*> prepare(const fs::path& directory, const files::H5mdAuthorship& authorship) override {
-    std::vector<StatePoint*> points;
-    for (const auto& point : input_.points) {
-      points_.push_back(
-          std::make_unique<CouetteStatePoint>(point, directory / point_file_name(points_.size()), authorship));
-      points.push_back(points_.back().get());
-    }
-    return points;
-  }
-
-  std::vector<double> seconds_of_points() const override {
-    std::vector<double> seconds;
-    for (const auto& point : points_) seconds.push_back(point->result().seconds);
-    return seconds;
-  }
 
   void write_companions(const fs::path& directory) override {
     std::vector<PointResult> results;
@@ -150,23 +122,19 @@ class Sweep final : public Experiment {
   int print(const fs::path& directory, const std::string& closing, bool draw) override {
     program::print("{}", files::format_table(rows_));
     if (!notes_.empty()) program::print("\n{}", notes_);
-    program::print("\n{}\n", closing);
-    std::fflush(stdout);
-    if (draw) program::draw(drawings_of(directory, input_.points));
     std::vector<std::string> names = {"table.csv",       "replicas.csv",  "notes.txt",    "input.toml",
                                       "provenance.json", "viscosity.png", "viscosity.svg"};
     for (std::size_t i = 0; i < input_.points.size(); ++i) {
       names.push_back(point_file_name(i));
       names.push_back(fmt::format("configuration_{:03}.png", i + 1));
     }
-    print_files(directory, names);
+    print_closing(directory, closing, draw ? drawings_of(directory, input_.points) : std::vector<Drawing>(), names);
     return tell_failures(rows_);
   }
 
  private:
-  files::SweepInput input_;
-  std::vector<std::unique_ptr<CouetteStatePoint>> points_;
-  std::vector<cases::TableRow> rows_;
+  std::string also_seeded_from() const override { return ", N, E/N and the strain rate"; }
+
   std::string notes_;
 };
 

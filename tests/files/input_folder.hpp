@@ -56,4 +56,14 @@ class InputFolder : public ::testing::Test {
   ScratchFolder folder_;
 };
 
+/// The same, whose file is read by `Read`.
+template <auto Read>
+class FolderReadBy : public InputFolder {
+ protected:
+  auto read(const std::string& text, const Overrides& overrides = {}) const { return Read(write(text), overrides); }
+  std::string refusal(const std::string& text, const Overrides& overrides = {}) const {
+    return refusal_from([&] { read(text, overrides); });
+  }
+};
+
 }  // namespace lucy::files::testing

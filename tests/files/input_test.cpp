@@ -18,6 +18,7 @@
 #include "input_folder.hpp"
 #include "lucy/errors.hpp"
 #include "lucy/files/schema.hpp"
+#include "shared_sections.hpp"
 
 namespace lucy::files {
 namespace {
@@ -31,18 +32,10 @@ using testing::Overrides;
 using testing::starts_with;
 using testing::with;
 
-class InputTest : public testing::InputFolder {
+class InputTest : public testing::FolderReadBy<read_sweep> {
  protected:
-  SweepInput read(const std::string& text, const Overrides& overrides = {}) const {
-    return read_sweep(write(text), overrides);
-  }
-
-  std::string refusal(const std::string& text, const Overrides& overrides = {}) const {
-    return refusal_of(write(text), overrides);
-  }
-
-  std::string refusal_of(const std::filesystem::path& path, const Overrides& overrides = {}) const {
-    return refusal_from([&] { read_sweep(path, overrides); });
+  std::string refusal_of(const std::filesystem::path& path) const {
+    return refusal_from([&] { read_sweep(path); });
   }
 };
 
@@ -130,27 +123,18 @@ strain_rate = -0.25
 thermostat = "nose-hoover"
 relaxation_time = 2
 [run]
-integrator = "rk4"
-step = 0.02
-equilibration = 7
-duration = 50
-replicas = 3
-seed = 9223372036854775807
-threads = 5
+)" + testing::run_keys +
+                                R"(integrator = "rk4"
 target_relative_error = 0.01
 maximum_duration = 500
 rescale = false
-energy_tolerance = 1e-7
-checkpoint_interval = 2.5
 [output]
 sample_interval = 0.4
 frame_interval = 10
 )");
-  ASSERT_EQ(input.points.size(), 1u);
+  testing::expect_run_keys(input);
   const auto& point = input.points.front();
   EXPECT_EQ(input.title, "all keys");
-  EXPECT_EQ(input.threads, 5);
-  EXPECT_EQ(input.checkpoint_interval, 2.5);
   EXPECT_EQ(point.particles, 100);
   EXPECT_EQ(point.energy_per_particle, 1.5);
   EXPECT_EQ(point.density, 0.9);
@@ -159,15 +143,9 @@ frame_interval = 10
   EXPECT_EQ(point.strain_rate, -0.25);
   EXPECT_EQ(point.thermostat, motion::Thermostat::nose_hoover);
   EXPECT_EQ(point.relaxation_time, 2.0);
-  EXPECT_EQ(point.step, 0.02);
-  EXPECT_EQ(point.equilibration, 7.0);
-  EXPECT_EQ(point.duration, 50.0);
-  EXPECT_EQ(point.replicas, 3);
-  EXPECT_EQ(point.seed, 9223372036854775807u);
   EXPECT_EQ(point.target_relative_error, 0.01);
   EXPECT_EQ(point.maximum_duration, 500.0);
   EXPECT_FALSE(point.rescale);
-  EXPECT_EQ(point.energy_tolerance, 1e-7);
   EXPECT_EQ(point.sample_interval, 0.4);
   EXPECT_EQ(point.frame_interval, 10.0);
 }
@@ -495,16 +473,19 @@ TEST_F(InputTest, WhatIsNoTextFileIsRefused) {
   EXPECT_PRED2(starts_with, refusal(""), "a.toml: system.particles is missing");
 }
 
-TEST_F(InputTest, SectionsAreKnownHoweverTheyAreWritten) {
-  EXPECT_TRUE(has_section(write("[correlation]\n"), "correlation"));
-  EXPECT_TRUE(has_section(write("[ correlation ]  # times\nlength = 1\n"), "correlation"));
-  EXPECT_TRUE(has_section(write("correlation.length = 1\n"), "correlation"));
-  EXPECT_TRUE(has_section(write("correlation = {length = 1}\n"), "correlation"));
-  EXPECT_FALSE(has_section(write("title = \"\"\"\n[correlation]\n\"\"\"\n[run]\n"), "correlation"));
-  EXPECT_FALSE(has_section(write("correlation = 1\n"), "correlation"));
-  EXPECT_FALSE(has_section(write("[correlation\n"), "correlation"));
-  EXPECT_FALSE(has_section(write(std::string(3, '\0')), "correlation"));
-  EXPECT_FALSE(has_section(folder_ / "none.toml", "correlation"));
+TEST_F(InputTest, SectionsAndKeysOfRowsAreKnownHoweverTheyAreWritten) {
+  using Names = std::set<std::string>;
+  const auto sections = [&](const std::string& text) { return outline_of(write(text), "point").sections; };
+  for (const char* text : {"[correlation]\n", "[ correlation ]  # times\nlength = 1\n", "correlation.length = 1\n",
+                           "correlation = {length = 1}\n"})
+    EXPECT_EQ(sections(text), Names{"correlation"}) << text;
+  EXPECT_EQ(sections("title = \"\"\"\n[correlation]\n\"\"\"\n[run]\n"), Names{"run"});
+  for (const std::string& text :
+       {std::string("correlation = 1\n"), std::string("[correlation\n"), std::string(3, '\0')})
+    EXPECT_TRUE(sections(text).empty()) << text;
+  EXPECT_TRUE(outline_of(folder_ / "none.toml", "point").sections.empty());
+  EXPECT_EQ(outline_of(write(with_points), "point").row_keys,
+            (Names{"duration", "equilibration", "particles", "run", "shear", "strain_rate", "thermostat"}));
 }
 
 TEST_F(InputTest, WhatCannotBeRunIsRefusedAtTheLineOfItsKey) {
@@ -585,37 +566,23 @@ TEST_F(InputTest, TheResolvedTextSharesWhatAllRowsShare) {
 
 // Explanation -----------------------------------------------------------------------------------------------------
 
-TEST(Explain, NamesEveryKeyWithUnitDefaultAndRangeInNarrowLines) {
-  const std::string text = explain_text();
-  for (const Key& key : sweep_schema().keys) {
-    EXPECT_PRED2(contains, text, "\n  " + key.name + "\n");
-    EXPECT_FALSE(key.meaning.empty()) << key.path();
-    const std::string alone = explain_text(key.path());
-    EXPECT_PRED2(contains, alone, "Unit: ");
-    EXPECT_PRED2(contains, alone, "Default: ");
-    EXPECT_PRED2(contains, alone, "Accepted: ");
-  }
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
-}
-
 TEST(Explain, TakesASectionOrAKey) {
-  EXPECT_PRED2(starts_with, explain_text("run.step"), "[run]\n  step\n");
-  EXPECT_PRED2(contains, explain_text("run.step"), "Default: 0.05.");
-  EXPECT_PRED2(contains, explain_text("run.step"), "Accepted: a number above 0 and at most 0.2, or a list");
-  EXPECT_EQ(explain_text("step"), explain_text("run.step"));
-  EXPECT_PRED2(contains, explain_text("shear"), "strain_rate");
-  EXPECT_PRED2(contains, explain_text("shear"), "thermostat");
-  EXPECT_PRED2(lacks, explain_text("shear"), "seed");
-  EXPECT_EQ(explain_text("[shear]"), explain_text("shear"));
-  EXPECT_PRED2(starts_with, explain_text("point"), "[[point]]\n");
-  EXPECT_PRED2(contains, explain_text("title"), "title");
+  EXPECT_PRED2(starts_with, explain(sweep_schema(), "run.step"), "[run]\n  step\n");
+  EXPECT_PRED2(contains, explain(sweep_schema(), "run.step"), "Default: 0.05.");
+  EXPECT_PRED2(contains, explain(sweep_schema(), "run.step"), "Accepted: a number above 0 and at most 0.2, or a list");
+  EXPECT_EQ(explain(sweep_schema(), "step"), explain(sweep_schema(), "run.step"));
+  EXPECT_PRED2(contains, explain(sweep_schema(), "shear"), "strain_rate");
+  EXPECT_PRED2(contains, explain(sweep_schema(), "shear"), "thermostat");
+  EXPECT_PRED2(lacks, explain(sweep_schema(), "shear"), "seed");
+  EXPECT_EQ(explain(sweep_schema(), "[shear]"), explain(sweep_schema(), "shear"));
+  EXPECT_PRED2(starts_with, explain(sweep_schema(), "point"), "[[point]]\n");
+  EXPECT_PRED2(contains, explain(sweep_schema(), "title"), "title");
 }
 
 TEST(Explain, RefusesWhatIsNotThereWithTheNearest) {
   const auto message = [](std::string_view filter) -> std::string {
     try {
-      return explain_text(filter);
+      return explain(sweep_schema(), filter);
     } catch (const BadInput& error) {
       return error.what();
     }
@@ -628,17 +595,6 @@ TEST(Explain, RefusesWhatIsNotThereWithTheNearest) {
 }
 
 // Schema ----------------------------------------------------------------------------------------------------------
-
-TEST(Schema, KeysHaveUniqueNamesAndDefaultsWithinTheirRange) {
-  const Schema schema = sweep_schema();
-  for (const Key& key : schema.keys) {
-    EXPECT_EQ(std::count_if(schema.keys.begin(), schema.keys.end(), [&](const Key& k) { return k.name == key.name; }),
-              1)
-        << key.name;
-    if (key.required || !key.default_value) continue;
-    EXPECT_EQ(checked_value(key, *key.default_value, {}), *key.default_value) << key.path();
-  }
-}
 
 TEST(Schema, RealsAreWrittenAsAPersonWouldAndReadBack) {
   EXPECT_EQ(toml_text(0.00451), "0.00451");

@@ -1,14 +1,15 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The input files of decaying waves. What all input files share (reading, refusing, overrides) is in input_test.cpp;
-// here are the keys, what belongs to fluids and what to atoms, and what differs between shear and temperature.
+// The input files of decaying waves. What all input files share (reading, refusing, overrides) is in
+// all_inputs_test.cpp; here are the keys, what belongs to fluids and what to atoms, and what differs between shear and
+// temperature.
 #include "lucy/files/wave_input.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "input_folder.hpp"
+#include "shared_sections.hpp"
 
 namespace lucy::files {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using cases::WavePoint;
 using cases::WaveQuantity;
 using testing::contains;
-using testing::lacks;
 using testing::Overrides;
 using testing::starts_with;
 using testing::with;
@@ -66,65 +66,27 @@ particles = 100
 density = 0.9
 dimension = 2
 reading = "spam"
-[kernel]
-name = "monaghan"
-range = 2.5
-[fluid]
-equation_of_state = "van-der-waals"
-temperature = 1.5
-viscosity = 0.25
-bulk_viscosity = 0.125
-conductivity = 0.75
-density_mean = "arithmetic"
-[start]
-disorder = 0.2
-noise = 0.01
-uniform = "temperature"
-[wave]
+)" + testing::fluid_sections +
+                             R"([wave]
 amplitude = 0.03
 mode = 2
 [run]
-step = 0.4
-equilibration = 7
-duration = 500
-replicas = 3
-seed = 9
-energy_tolerance = 1e-7
-threads = 5
-checkpoint_interval = 2.5
-[output]
+)" + testing::run_keys +
+                             R"([output]
 sample_interval = 0.8
 frame_interval = 8
 )";
 
 TEST_F(WaveInputTest, EveryKeyReachesItsPlace) {
   const WaveInput input = read(all_keys);
-  ASSERT_EQ(input.points.size(), 1u);
+  testing::expect_run_keys(input);
   const WavePoint& point = input.points.front();
   EXPECT_EQ(input.title, "all keys");
-  EXPECT_EQ(input.threads, 5);
-  EXPECT_EQ(input.checkpoint_interval, 2.5);
   EXPECT_EQ(point.particles, 100);
   EXPECT_EQ(point.density, 0.9);
-  EXPECT_EQ(point.weight, kernel::WeightName::monaghan);
-  EXPECT_EQ(point.range, 2.5);
-  EXPECT_EQ(point.equation_of_state, spam::EquationOfStateName::van_der_waals);
-  EXPECT_EQ(point.temperature, 1.5);
-  EXPECT_EQ(point.viscosity, 0.25);
-  EXPECT_EQ(point.bulk_viscosity, 0.125);
-  EXPECT_EQ(point.conductivity, 0.75);
-  EXPECT_EQ(point.density_mean, spam::DensityMean::arithmetic);
-  EXPECT_EQ(point.disorder, 0.2);
-  EXPECT_EQ(point.noise, 0.01);
-  EXPECT_EQ(point.uniform, cases::UniformStart::temperature);
+  testing::expect_fluid_sections(point);
   EXPECT_EQ(point.amplitude, 0.03);
   EXPECT_EQ(point.mode, 2);
-  EXPECT_EQ(point.step, 0.4);
-  EXPECT_EQ(point.equilibration, 7.0);
-  EXPECT_EQ(point.duration, 500.0);
-  EXPECT_EQ(point.replicas, 3);
-  EXPECT_EQ(point.seed, 9u);
-  EXPECT_EQ(point.energy_tolerance, 1e-7);
   EXPECT_EQ(point.sample_interval, 0.8);
   EXPECT_EQ(point.frame_interval, 8.0);
 }
@@ -159,7 +121,9 @@ TEST_F(WaveInputTest, WhatCannotBeRunIsRefusedAtTheLineOfItsKey) {
   EXPECT_PRED2(contains, refusal(minimal, {"system.energy_per_particle=1"}), "is for system.reading = \"md\"");
   EXPECT_EQ(refusal(minimal + "[kernel]\nname = \"gauss\"\n"),
             "a.toml:8: kernel.name = \"gauss\" must be one of \"lucy\", \"monaghan\"");
-  EXPECT_PRED2(contains, refusal(minimal + "[shear]\nstrain_rate = 1\n"), "belongs to an input of `lucy sweep`");
+  EXPECT_EQ(refusal(minimal + "[shear]\nstrain_rate = 1\n"),
+            "a.toml:7: unknown section [shear]; a wave decays in a box at rest; [shear] belongs to an input of `lucy "
+            "sweep`, `lucy isomorphism` or `lucy shear-flow`");
 }
 
 TEST_F(WaveInputTest, TemperatureWavesAreOfFluidsWithAnEntropy) {
@@ -182,26 +146,13 @@ TEST_F(WaveInputTest, TheResolvedTextGivesBackTheSamePoints) {
     EXPECT_EQ(wave_resolved_toml(again), resolved);
     EXPECT_EQ(again.points.size(), input.points.size());
     EXPECT_EQ(again.points.back().energy_per_particle, input.points.back().energy_per_particle);
-    EXPECT_PRED2(lacks, resolved, "threads");
   }
   EXPECT_NE(wave_resolved_toml(read(minimal)), wave_resolved_toml(read(minimal, {}, WaveQuantity::temperature)));
 }
 
-TEST(ExplainWave, NamesEveryKeyWithUnitDefaultAndRangeInNarrowLines) {
-  for (const auto quantity : {WaveQuantity::shear, WaveQuantity::temperature}) {
-    const std::string text = explain_wave(quantity);
-    for (const Key& key : wave_schema(quantity).keys) {
-      EXPECT_PRED2(contains, text, "\n  " + key.name + "\n");
-      EXPECT_FALSE(key.meaning.empty()) << key.path();
-      if (!key.required && key.default_value) {
-        EXPECT_EQ(checked_value(key, *key.default_value, {}), *key.default_value) << key.path();
-      }
-    }
-    EXPECT_LE(testing::widest_line(text), 100u);
-    EXPECT_PRED2(contains, text, fmt::format("`lucy {}`", command_name(quantity)));
-  }
-  EXPECT_PRED2(contains, explain_wave(WaveQuantity::shear, "amplitude"), "v_x = A sin(k y)");
-  EXPECT_PRED2(contains, explain_wave(WaveQuantity::temperature, "amplitude"), "1 + A sin(k y)");
+TEST(ExplainWave, TellsOneAmplitudeFromTheOther) {
+  EXPECT_PRED2(contains, explain(wave_schema(WaveQuantity::shear), "amplitude"), "v_x = A sin(k y)");
+  EXPECT_PRED2(contains, explain(wave_schema(WaveQuantity::temperature), "amplitude"), "1 + A sin(k y)");
 }
 
 }  // namespace

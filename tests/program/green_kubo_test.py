@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`lucy green-kubo`: tables that do not depend on threads or interruptions, refusals, series from elsewhere, pictures."""
 
-import csv
 import json
 import math
 import random
 import time
 import unittest
 
-from running import ProgramTest
+from running import CommandPromises, CommandTest
 
 SMALL = """\
 title = "two small states"
@@ -26,27 +25,17 @@ seed = 4
 length = 100
 """
 
-RESULTS = ("viscosity.csv", "correlation.csv", "notes.txt", "input.toml", "point_001.h5", "point_002.h5")
 
-
-class GreenKuboTest(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.write("small.toml", SMALL)
-
-    def green_kubo(self, *arguments, code=0, says=(), **options):
-        process = self.lucy("green-kubo", *arguments, **options)
-        self.expect(process, code, *says)
-        return process
-
-    def table(self, directory, name="viscosity.csv"):
-        with open(self.folder / directory / name, newline="") as file:
-            return list(csv.DictReader(file))
+class GreenKuboTest(CommandTest):
+    COMMAND = "green-kubo"
+    KIND = "Green-Kubo run"
+    SMALL = SMALL
+    RESULTS = ("viscosity.csv", "correlation.csv", "notes.txt", "input.toml", "point_001.h5", "point_002.h5")
 
 
 class Results(GreenKuboTest):
     def test_the_tables_say_what_was_asked_and_found(self):
-        process = self.green_kubo("small.toml", "--out", "x")
+        process = self.run_input("small.toml", "--out", "x")
         self.assertEqual(process.stderr, "")
         rows = self.table("x")
         self.assertEqual(list(rows[0])[:4], ["energy_per_particle", "particles", "viscosity", "viscosity_error"])
@@ -81,20 +70,9 @@ class Results(GreenKuboTest):
         record = json.loads((self.folder / "x" / "provenance.json").read_text())
         self.assertEqual(record["seed"], 4)
 
-    def test_nothing_depends_on_the_number_of_threads(self):
-        self.green_kubo("small.toml", "--out", "one", "--set", "run.threads=1")
-        self.green_kubo("small.toml", "--out", "three", "--set", "run.threads=3")
-        self.assertEqual(self.contents("one", RESULTS), self.contents("three", RESULTS))
-
-    def test_a_finished_run_is_printed_again(self):
-        first = self.green_kubo("small.toml", "--out", "x", "--set", "run.duration=200")
-        again = self.green_kubo("small.toml", "--out", "x", "--set", "run.duration=200")
-        self.assertIn("nothing was run", again.stdout)
-        self.assertEqual(first.stdout.split("\nTook")[0], again.stdout.split("\nThis Green-Kubo run was")[0])
-
     def test_other_correlations_come_with_it(self):
-        self.green_kubo("small.toml", "--out", "x", "--set", "correlation.diffusion=true", "--set",
-                        "correlation.thermal_conductivity=true", "--set", 'correlation.pairs=["pressure pressure"]')
+        self.run_input("small.toml", "--out", "x", "--set", "correlation.diffusion=true", "--set",
+                       "correlation.thermal_conductivity=true", "--set", 'correlation.pairs=["pressure pressure"]')
         row = self.table("x")[1]
         self.assertGreater(float(row["self_diffusion"]), 0)
         self.assertGreater(float(row["thermal_conductivity"]), 0)
@@ -103,30 +81,30 @@ class Results(GreenKuboTest):
         self.assertIn("pressure pressure", {line["pair"] for line in pairs})
 
     def test_a_short_run_is_flagged_not_refused(self):
-        process = self.green_kubo("small.toml", "--out", "x", "--set", "run.duration=6", "--set", "run.replicas=1",
-                                  "--set", "correlation.length=2")
+        process = self.run_input("small.toml", "--out", "x", "--set", "run.duration=6", "--set", "run.replicas=1",
+                                 "--set", "correlation.length=2")
         rows = self.table("x")
         self.assertEqual({row["status"] for row in rows}, {"short"})
         self.assertTrue(math.isnan(float(rows[0]["viscosity_error"])))
         self.assertIn("short", process.stdout)
-        process = self.green_kubo("small.toml", "--out", "y", "--set", "run.duration=200")
+        process = self.run_input("small.toml", "--out", "y", "--set", "run.duration=200")
         self.assertEqual({row["status"] for row in self.table("y")}, {"short"})
         self.assertIn("cut-off", process.stdout)
 
     def test_multiple_tau_finds_the_same_viscosity(self):
-        self.green_kubo("small.toml", "--out", "x")
-        self.green_kubo("small.toml", "--out", "y", "--set", 'correlation.method="multiple-tau"')
+        self.run_input("small.toml", "--out", "x")
+        self.run_input("small.toml", "--out", "y", "--set", 'correlation.method="multiple-tau"')
         for one, other in zip(self.table("x"), self.table("y")):
             self.assertAlmostEqual(float(one["viscosity"]), float(other["viscosity"]),
                                    delta=0.5 * float(one["viscosity_error"]) + 0.02 * float(one["viscosity"]))
             self.assertEqual(one["kinetic_temperature"], other["kinetic_temperature"])
 
     def test_pictures(self):
-        process = self.green_kubo("small.toml", "--out", "x", environment=self.environment(pictures=True))
+        process = self.run_input("small.toml", "--out", "x", environment=self.environment(pictures=True))
         self.assertIn("correlation.png", process.stdout)
         self.assertTrue((self.folder / "x" / "correlation.png").read_bytes().startswith(b"\x89PNG"))
         self.assertTrue((self.folder / "x" / "correlation.svg").exists())
-        self.green_kubo("small.toml", "--out", "y", "--no-pictures", environment=self.environment(pictures=True))
+        self.run_input("small.toml", "--out", "y", "--no-pictures", environment=self.environment(pictures=True))
         self.assertNotIn("correlation.png", self.entries("y"))
 
     def test_a_state_that_fails_does_not_stop_the_others(self):
@@ -142,32 +120,26 @@ class Results(GreenKuboTest):
 
 class Refusals(GreenKuboTest):
     def test_unsound_states(self):
-        for setting, says in (("output.sample_interval=5", "must be at most"),
-                              ("system.energy_per_particle=0.41", "must be above 0.413"),
-                              ("run.step=0.3", "run.step"),
-                              ("correlation.length=900", "run.duration = 800"),
-                              ('correlation.pairs=["pressure"]', "is not a pair"),
-                              ("system.particles=25", "below twice kernel.range"),
-                              ("shear.strain_rate=1", "unknown section [shear]"),
-                              ("run.duration=nan", "run.duration"),
-                              ("correlation.method='slow'", "multiple-tau")):
-            with self.subTest(setting):
-                self.green_kubo("small.toml", "--out", "x", "--set", setting, code=2, says=("--set", says))
-                self.assertFalse((self.folder / "x").exists())
+        self.expect_refusals(
+            ("output.sample_interval=5", "must be at most"),
+            ("system.energy_per_particle=0.41", "must be above 0.413"),
+            ("run.step=0.3", "run.step"),
+            ("correlation.length=900", "run.duration = 800"),
+            ('correlation.pairs=["pressure"]', "is not a pair"),
+            ("system.particles=25", "below twice kernel.range"),
+            ("shear.strain_rate=1", "unknown section [shear]"),
+            ("run.duration=nan", "run.duration"),
+            ("correlation.method='slow'", "multiple-tau"))
 
-    def test_a_directory_of_something_else_is_left_alone(self):
+    def test_a_directory_of_a_sweep_is_left_alone(self):
         self.sweep("tiny.toml", "--out", "x")
         before = self.contents("x", ("input.toml", "table.csv"))
-        self.green_kubo("small.toml", "--out", "x", code=2, says=("x", "another input"))
+        self.run_input("small.toml", "--out", "x", code=2, says=("x", "another input"))
         self.assertEqual(self.contents("x", ("input.toml", "table.csv")), before)
-        (self.folder / "y").mkdir()
-        (self.folder / "y" / "thesis.tex").write_text("x")
-        self.green_kubo("small.toml", "--out", "y", code=2, says=("thesis.tex", "no Green-Kubo run"))
-        self.assertEqual(self.entries("y"), ["thesis.tex"])
 
     def test_no_input_at_all(self):
-        self.green_kubo(code=2, says=("needs INPUT",))
-        self.green_kubo("small.toml", "--interval", "0.2", code=2, says=("--interval needs --from-series",))
+        self.run_input(code=2, says=("needs INPUT",))
+        self.run_input("small.toml", "--interval", "0.2", code=2, says=("--interval needs --from-series",))
 
     def test_check_and_explain_know_it(self):
         process = self.lucy("check", "small.toml")
@@ -191,32 +163,12 @@ class Refusals(GreenKuboTest):
         self.assertNotIn("unknown", process.stdout)
 
 
-class Resume(GreenKuboTest):
+class Promises(CommandPromises, GreenKuboTest):
     LONGER = SMALL.replace("duration = 800", "duration = 3000").replace(
         "seed = 4", "seed = 4\nthreads = 2\ncheckpoint_interval = 0.05")
-
-    def test_killed_again_and_again_it_ends_with_the_same_bits(self):
-        self.write("longer.toml", self.LONGER)
-        extra = ["--set", "correlation.diffusion=true", "--set", "output.series=true", "--set",
-                 "output.frame_interval=200"]
-        begin = time.monotonic()
-        self.green_kubo("longer.toml", "--out", "whole", *extra)
-        seconds = time.monotonic() - begin
-        moments = random.Random(3)
-        kills = 0
-        for _ in range(60):
-            process = self.start("green-kubo", "longer.toml", "--out", "x", *extra)
-            time.sleep(moments.uniform(0.06, 0.06 + 0.08 * seconds))
-            process.kill()
-            process.wait()
-            process.stderr.close()
-            if process.returncode == 0:
-                break
-            kills += 1
-        self.green_kubo("longer.toml", "--out", "x", *extra)
-        self.assertGreaterEqual(kills, 3)
-        self.assertEqual(self.contents("x", RESULTS), self.contents("whole", RESULTS))
-        self.assertNotIn("checkpoints", self.entries("x"))
+    EXTRA = ("--set", "correlation.diffusion=true", "--set", "output.series=true", "--set", "output.frame_interval=200")
+    PRINTED_AGAIN = ("--set", "run.duration=200")
+    LONGEST_WAIT = 0.08
 
 
 class Series(GreenKuboTest):
@@ -239,7 +191,7 @@ class Series(GreenKuboTest):
         self.options = ["--from-series", "stress.dat", "--interval", "0.2", "--volume", "1", "--temperature", "1"]
 
     def test_gives_the_known_integral(self):
-        self.green_kubo(*self.options, "--pxy", "v_pxy", "--pxx", "v_pxx", "--pyy", "4", "--out", "x")
+        self.run_input(*self.options, "--pxy", "v_pxy", "--pxx", "v_pxx", "--pyy", "4", "--out", "x")
         self.assertIn("--from-series", json.loads((self.folder / "x" / "provenance.json").read_text())["command_line"])
         self.expect(self.lucy("viscosity", "x", "x"), 2)
         row, = self.table("x")
@@ -248,27 +200,27 @@ class Series(GreenKuboTest):
             self.assertLess(float(row[f"{name}_error"]), 0.2 * self.truth)
         self.assertAlmostEqual(float(row["decay_time"]), 4.0, delta=4 * float(row["decay_time_error"]))
         self.assertTrue(math.isnan(float(row["viscosity_kinetic"])))
-        self.green_kubo(*self.options, "--pxy", "2", "--pxx", "3", "--pyy", "4", "--out", "x")  # the same once more
+        self.run_input(*self.options, "--pxy", "2", "--pxx", "3", "--pyy", "4", "--out", "x")  # the same once more
         other, = self.table("x")
         self.assertEqual(row, other)
-        self.green_kubo(*self.options, "--pxy", "2", "--pxx", "3", "--pyy", "4", "--length", "30", "--out", "x", code=2,
-                        says=("x",))
+        self.run_input(*self.options, "--pxy", "2", "--pxx", "3", "--pyy", "4", "--length", "30", "--out", "x", code=2,
+                       says=("x",))
 
     def test_refusals(self):
         for extra, says in ((["--pxy", "pyx"], "pyx"), (["--pxy", "9"], "9"),
                             (["--pxy", "2", "--pxx", "3", "--difference", "3"], "--difference"),
                             (["--set", "run.seed=1"], "--set"), (["small.toml"], "takes no INPUT")):
             with self.subTest(extra):
-                self.green_kubo(*self.options, *extra, "--out", "x", code=2, says=(says,))
-        self.green_kubo("--from-series", "stress.dat", "--volume", "1", "--temperature", "1", code=2,
-                        says=("needs --interval",))
-        self.green_kubo("--from-series", "stress.dat", "--interval", "0.2", "--volume", "-1", "--temperature", "1",
-                        "--pxy", "2", "--pxx", "3", "--pyy", "4", code=2, says=("--volume = -1 must be above 0",))
-        self.green_kubo("--from-series", "nothing.dat", "--interval", "0.2", "--volume", "1", "--temperature", "1",
-                        code=2, says=("nothing.dat",))
+                self.run_input(*self.options, *extra, "--out", "x", code=2, says=(says,))
+        self.run_input("--from-series", "stress.dat", "--volume", "1", "--temperature", "1", code=2,
+                       says=("needs --interval",))
+        self.run_input("--from-series", "stress.dat", "--interval", "0.2", "--volume", "-1", "--temperature", "1",
+                       "--pxy", "2", "--pxx", "3", "--pyy", "4", code=2, says=("--volume = -1 must be above 0",))
+        self.run_input("--from-series", "nothing.dat", "--interval", "0.2", "--volume", "1", "--temperature", "1",
+                       code=2, says=("nothing.dat",))
         self.write("bad.dat", "1 2 3\n1 2\n")
-        self.green_kubo("--from-series", "bad.dat", "--interval", "0.2", "--volume", "1", "--temperature", "1",
-                        "--pxy", "1", "--pxx", "2", "--pyy", "3", code=2, says=("bad.dat:2",))
+        self.run_input("--from-series", "bad.dat", "--interval", "0.2", "--volume", "1", "--temperature", "1",
+                       "--pxy", "1", "--pxx", "2", "--pyy", "3", code=2, says=("bad.dat:2",))
         self.assertFalse((self.folder / "x").exists())
 
 

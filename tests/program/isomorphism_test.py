@@ -2,14 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`lucy isomorphism`: the verdict and its exit code, results that no thread or interruption changes, refusals."""
 
-import csv
 import json
 import math
-import random
-import time
 import unittest
 
-from running import ProgramTest
+from running import CommandPromises, CommandTest
 
 SMALL = """\
 title = "free and sheared"
@@ -26,27 +23,17 @@ duration = 60
 seed = 4
 """
 
-RESULTS = ("isomorphism.csv", "notes.txt", "input.toml")
 
-
-class IsomorphismTest(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.write("small.toml", SMALL)
-
-    def isomorphism(self, *arguments, code=0, says=(), **options):
-        process = self.lucy("isomorphism", *arguments, **options)
-        self.expect(process, code, *says)
-        return process
-
-    def table(self, directory):
-        with open(self.folder / directory / "isomorphism.csv", newline="") as file:
-            return list(csv.DictReader(file))
+class IsomorphismTest(CommandTest):
+    COMMAND = "isomorphism"
+    KIND = "isomorphism run"
+    SMALL = SMALL
+    RESULTS = ("isomorphism.csv", "notes.txt", "input.toml")
 
 
 class Results(IsomorphismTest):
     def test_every_bit_is_the_same_and_both_readings_stand_side_by_side(self):
-        process = self.isomorphism("small.toml", "--out", "x")
+        process = self.run_input("small.toml", "--out", "x")
         self.assertEqual(process.stderr, "")
         for rate in ("0", "0.5"):
             # 1300 steps and the start; 6 numbers per particle and 5 sums.
@@ -76,68 +63,49 @@ class Results(IsomorphismTest):
                          [".lock", "input.toml", "isomorphism.csv", "notes.txt", "provenance.json"])
 
     def test_another_fluid_differs_at_the_start(self):
-        process = self.isomorphism("small.toml", "--out", "x", "--set", "isentropic.pressure=2", code=1,
-                                   says=("2 of 2 cases",))
+        process = self.run_input("small.toml", "--out", "x", "--set", "isentropic.pressure=2", code=1,
+                                 says=("2 of 2 cases",))
         self.assertIn("not identical: at the start, F_x of particle 0", process.stdout)
         self.assertNotIn("identical in every bit", process.stdout)
         row, _ = self.table("x")
         self.assertEqual((row["identical"], row["difference_step"], row["difference_component"]), ("no", "0", "F_x"))
         self.assertEqual(float(row["difference_smooth"]), 2 * float(row["difference_atoms"]))
-        again = self.isomorphism("small.toml", "--out", "x", "--set", "isentropic.pressure=2", code=1)
+        again = self.run_input("small.toml", "--out", "x", "--set", "isentropic.pressure=2", code=1)
         self.assertIn("not identical: at the start, F_x of particle 0", again.stdout)
         self.assertIn("nothing was run", again.stdout)
 
     def test_a_fluid_with_the_same_coefficient_does_not(self):
-        self.isomorphism("small.toml", "--out", "x")
-        self.isomorphism("small.toml", "--out", "y", "--set", "isentropic.pressure=4", "--set",
-                         "isentropic.reference_density=2")
+        self.run_input("small.toml", "--out", "x")
+        self.run_input("small.toml", "--out", "y", "--set", "isentropic.pressure=4", "--set",
+                       "isentropic.reference_density=2")
         for one, other in zip(self.table("x"), self.table("y")):
             self.assertEqual((other.pop("isentropic_pressure"), other.pop("isentropic_reference_density")), ("4", "2"))
             self.assertEqual((one.pop("isentropic_pressure"), one.pop("isentropic_reference_density")), ("1", "1"))
             self.assertEqual(one, other)
 
-    def test_nothing_depends_on_the_number_of_threads(self):
-        self.isomorphism("small.toml", "--out", "one", "--set", "run.threads=1")
-        self.isomorphism("small.toml", "--out", "three", "--set", "run.threads=3")
-        self.assertEqual(self.contents("one", RESULTS), self.contents("three", RESULTS))
-
-    def test_a_finished_run_is_printed_again(self):
-        first = self.isomorphism("small.toml", "--out", "x")
-        again = self.isomorphism("small.toml", "--out", "x")
-        self.assertIn("nothing was run", again.stdout)
-        self.assertEqual(first.stdout.split("\nTook")[0], again.stdout.split("\nThis isomorphism run was")[0])
-
     def test_a_short_run_is_flagged_not_refused(self):
-        process = self.isomorphism("small.toml", "--out", "x", "--set", "run.duration=1")
+        process = self.run_input("small.toml", "--out", "x", "--set", "run.duration=1")
         self.assertEqual({row["status"] for row in self.table("x")}, {"short"})
         self.assertIn("identical in every bit", process.stdout)
         self.assertIn("too short for an error bar", process.stdout)
 
     def test_a_case_that_fails_does_not_stop_the_other(self):
-        process = self.isomorphism("small.toml", "--out", "x", "--set", "run.energy_tolerance=1e-16", "--set",
-                                   "shear.strain_rate=[0.5,1]", "--set", "run.step=0.2", code=1, says=("failed",))
+        process = self.run_input("small.toml", "--out", "x", "--set", "run.energy_tolerance=1e-16", "--set",
+                                 "shear.strain_rate=[0.5,1]", "--set", "run.step=0.2", code=1, says=("failed",))
         self.assertIn("failed: at time", process.stdout)
         self.assertEqual({row["identical"] for row in self.table("x")}, {"unknown"})
 
 
 class Refusals(IsomorphismTest):
     def test_unsound_cases(self):
-        for setting, says in (("isentropic.pressure=3", "must be a power of two"),
-                              ("isentropic.reference_density=0", "must be a number above 0"),
-                              ("system.reading='spam'", "unknown key 'reading'"),
-                              ("system.particles=25", "below twice kernel.range"),
-                              ("run.step=0.3", "run.step"),
-                              ("run.duration=nan", "run.duration"),
-                              ("shear.thermostat='cold'", "nose-hoover")):
-            with self.subTest(setting):
-                self.isomorphism("small.toml", "--out", "x", "--set", setting, code=2, says=("--set", says))
-                self.assertFalse((self.folder / "x").exists())
-
-    def test_a_directory_of_something_else_is_left_alone(self):
-        self.isomorphism("small.toml", "--out", "x")
-        before = self.contents("x", RESULTS)
-        self.isomorphism("small.toml", "--out", "x", "--set", "run.seed=5", code=2, says=("x", "another input"))
-        self.assertEqual(self.contents("x", RESULTS), before)
+        self.expect_refusals(
+            ("isentropic.pressure=3", "must be a power of two"),
+            ("isentropic.reference_density=0", "must be a number above 0"),
+            ("system.reading='spam'", "unknown key 'reading'"),
+            ("system.particles=25", "below twice kernel.range"),
+            ("run.step=0.3", "run.step"),
+            ("run.duration=nan", "run.duration"),
+            ("shear.thermostat='cold'", "nose-hoover"))
 
     def test_check_and_explain_know_it(self):
         for extra in ((), ("--for", "isomorphism")):
@@ -152,28 +120,9 @@ class Refusals(IsomorphismTest):
         self.assertFalse((self.folder / "runs").exists())
 
 
-class Resume(IsomorphismTest):
-    def test_killed_again_and_again_it_ends_with_the_same_bits(self):
-        self.write("longer.toml", SMALL.replace("duration = 60", "duration = 600").replace(
-            "seed = 4", "seed = 4\nreplicas = 2\nthreads = 2\ncheckpoint_interval = 0.05"))
-        begin = time.monotonic()
-        self.isomorphism("longer.toml", "--out", "whole")
-        seconds = time.monotonic() - begin
-        moments = random.Random(3)
-        kills = 0
-        for _ in range(60):
-            process = self.start("isomorphism", "longer.toml", "--out", "x")
-            time.sleep(moments.uniform(0.06, 0.06 + 0.15 * seconds))
-            process.kill()
-            process.wait()
-            process.stderr.close()
-            if process.returncode == 0:
-                break
-            kills += 1
-        self.isomorphism("longer.toml", "--out", "x")
-        self.assertGreaterEqual(kills, 3)
-        self.assertEqual(self.contents("x", RESULTS), self.contents("whole", RESULTS))
-        self.assertNotIn("checkpoints", self.entries("x"))
+class Promises(CommandPromises, IsomorphismTest):
+    LONGER = SMALL.replace("duration = 60", "duration = 600").replace(
+        "seed = 4", "seed = 4\nreplicas = 2\nthreads = 2\ncheckpoint_interval = 0.05")
 
 
 if __name__ == "__main__":

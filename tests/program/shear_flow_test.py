@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`lucy shear-flow`: tables that do not depend on threads or interruptions, refusals, flows that are not steady."""
 
-import csv
 import json
 import math
-import random
 import re
-import time
 import unittest
 
-from running import ProgramTest
+from running import CommandPromises, CommandTest
 
 SMALL = """\
 title = "two small flows"
@@ -28,27 +25,17 @@ replicas = 2
 seed = 4
 """
 
-RESULTS = ("shear_flow.csv", "notes.txt", "input.toml", "point_001.h5", "point_002.h5")
 
-
-class ShearFlowTest(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.write("small.toml", SMALL)
-
-    def shear_flow(self, *arguments, code=0, says=(), **options):
-        process = self.lucy("shear-flow", *arguments, **options)
-        self.expect(process, code, *says)
-        return process
-
-    def table(self, directory):
-        with open(self.folder / directory / "shear_flow.csv", newline="") as file:
-            return list(csv.DictReader(file))
+class ShearFlowTest(CommandTest):
+    COMMAND = "shear-flow"
+    KIND = "shear-flow run"
+    SMALL = SMALL
+    RESULTS = ("shear_flow.csv", "notes.txt", "input.toml", "point_001.h5", "point_002.h5")
 
 
 class Results(ShearFlowTest):
     def test_the_table_says_what_was_asked_and_found(self):
-        process = self.shear_flow("small.toml", "--out", "x")
+        process = self.run_input("small.toml", "--out", "x")
         self.assertEqual(process.stderr, "")
         rows = self.table("x")
         self.assertEqual([float(row["strain_rate"]) for row in rows], [0.1, 0.3])
@@ -74,17 +61,6 @@ class Results(ShearFlowTest):
         record = json.loads((self.folder / "x" / "provenance.json").read_text())
         self.assertEqual(record["seed"], 4)
 
-    def test_nothing_depends_on_the_number_of_threads(self):
-        self.shear_flow("small.toml", "--out", "one", "--set", "run.threads=1")
-        self.shear_flow("small.toml", "--out", "three", "--set", "run.threads=3")
-        self.assertEqual(self.contents("one", RESULTS), self.contents("three", RESULTS))
-
-    def test_a_finished_run_is_printed_again(self):
-        first = self.shear_flow("small.toml", "--out", "x")
-        again = self.shear_flow("small.toml", "--out", "x")
-        self.assertIn("nothing was run", again.stdout)
-        self.assertEqual(first.stdout.split("\nTook")[0], again.stdout.split("\nThis shear-flow run was")[0])
-
     def test_every_fluid_flows(self):
         self.write("fluids.toml", SMALL.replace("[0.1, 0.3]", "0.1").replace("= 100", "= 20") + """
 [[point]]
@@ -96,7 +72,7 @@ kernel.name = "monaghan"
 equation_of_state = "isentropic"
 conductivity = 0
 """)
-        process = self.shear_flow("fluids.toml", "--out", "x")
+        process = self.run_input("fluids.toml", "--out", "x")
         rows = self.table("x")
         self.assertEqual([row["equation_of_state"] for row in rows], ["van-der-waals", "dense-fluid", "isentropic"])
         self.assertAlmostEqual(float(rows[0]["internal_energy"]), 0.5, delta=0.02)  # kT - a rho
@@ -105,12 +81,12 @@ conductivity = 0
         self.assertIn("dense-fluid, monaghan", process.stdout)
 
     def test_a_short_run_is_flagged_not_refused(self):
-        self.shear_flow("small.toml", "--out", "x", "--set", "run.duration=0.3", "--set", "run.replicas=1")
+        self.run_input("small.toml", "--out", "x", "--set", "run.duration=0.3", "--set", "run.replicas=1")
         self.assertEqual({row["status"] for row in self.table("x")}, {"short"})
         self.assertTrue(math.isnan(float(self.table("x")[0]["viscosity_error"])))
 
     def test_without_cooling_the_fluid_heats_up_and_nothing_has_an_error(self):
-        process = self.shear_flow("small.toml", "--out", "x", "--set", "shear.cooling='none'")
+        process = self.run_input("small.toml", "--out", "x", "--set", "shear.cooling='none'")
         rows = self.table("x")
         self.assertEqual({row["status"] for row in rows}, {"short"})
         for row in rows:
@@ -128,10 +104,10 @@ viscosity = 0
 conductivity = 0
 noise = 0.5
 """)
-        process = self.shear_flow("thin.toml", "--out", "x", code=1, says=("1 of 2 points failed",))
+        process = self.run_input("thin.toml", "--out", "x", code=1, says=("1 of 2 points failed",))
         self.assertEqual([row["status"] == "failed" for row in self.table("x")], [False, True])
         self.assertIn("the temperature of particle", process.stdout)
-        again = self.shear_flow("thin.toml", "--out", "x", code=1, says=("1 of 2 points failed",))
+        again = self.run_input("thin.toml", "--out", "x", code=1, says=("1 of 2 points failed",))
         self.assertIn("the temperature of particle", again.stdout)
 
     def test_frames_hold_internal_energies(self):
@@ -139,7 +115,7 @@ noise = 0.5
             import h5py
         except ImportError:
             self.skipTest("no h5py")
-        self.shear_flow("small.toml", "--out", "x", "--set", "output.frame_interval=25")
+        self.run_input("small.toml", "--out", "x", "--set", "output.frame_interval=25")
         with h5py.File(self.folder / "x" / "point_002.h5") as file:
             self.assertEqual(file["particles/replica_01/internal_energy/value"].shape, (5, 64))
             self.assertEqual(file["particles/replica_01/position/time"][0], 10)
@@ -150,7 +126,7 @@ noise = 0.5
 
     def test_pictures(self):
         environment = self.environment(pictures=True)
-        process = self.shear_flow("small.toml", "--out", "x", environment=environment)
+        process = self.run_input("small.toml", "--out", "x", environment=environment)
         if "No pictures" in process.stdout:
             self.skipTest("no matplotlib")
         self.assertIn("shear_flow.png", process.stdout)
@@ -159,29 +135,23 @@ noise = 0.5
 
 class Refusals(ShearFlowTest):
     def test_unsound_flows(self):
-        for setting, says in (("shear.strain_rate=0", "must be finite and not 0"),
-                              ("system.particles=25", "at least twice kernel.range"),
-                              ("run.step=0.3", "run.step"),
-                              ("run.duration=nan", "run.duration"),
-                              ("fluid.viscosity=-1", "fluid.viscosity"),
-                              ("fluid.equation_of_state='air'", "van-der-waals"),
-                              ("shear.cooling='slow'", "isoenergetic"),
-                              ("shear.thermostat='none'", "unknown key"),
-                              ("output.sample_interval=200", "must be at most")):
-            with self.subTest(setting):
-                self.shear_flow("small.toml", "--out", "x", "--set", setting, code=2, says=("--set", says))
-                self.assertFalse((self.folder / "x").exists())
+        self.expect_refusals(
+            ("shear.strain_rate=0", "must be finite and not 0"),
+            ("system.particles=25", "at least twice kernel.range"),
+            ("run.step=0.3", "run.step"),
+            ("run.duration=nan", "run.duration"),
+            ("fluid.viscosity=-1", "fluid.viscosity"),
+            ("fluid.equation_of_state='air'", "van-der-waals"),
+            ("shear.cooling='slow'", "isoenergetic"),
+            ("shear.thermostat='none'", "unknown key"),
+            ("output.sample_interval=200", "must be at most"))
 
     def test_what_does_not_go_together_is_told_at_its_line(self):
-        self.shear_flow("small.toml", "--set", "fluid.equation_of_state='isentropic'", code=2,
-                        says=("small.toml:6: fluid.conductivity = 0.5 needs",))
+        self.run_input("small.toml", "--set", "fluid.equation_of_state='isentropic'", code=2,
+                       says=("small.toml:6: fluid.conductivity = 0.5 needs",))
 
-    def test_a_directory_of_something_else_is_left_alone(self):
-        (self.folder / "y").mkdir()
-        (self.folder / "y" / "thesis.tex").write_text("x")
-        self.shear_flow("small.toml", "--out", "y", code=2, says=("thesis.tex", "no shear-flow run"))
-        self.assertEqual(self.entries("y"), ["thesis.tex"])
-        self.shear_flow("tiny.toml", code=2, says=("energy_per_particle",))
+    def test_the_input_of_a_sweep_is_told_as_such(self):
+        self.run_input("tiny.toml", code=2, says=("energy_per_particle", "belongs to an input of `lucy sweep`"))
 
     def test_check_and_explain_know_it(self):
         process = self.lucy("check", "small.toml")
@@ -194,30 +164,9 @@ class Refusals(ShearFlowTest):
         self.assertFalse((self.folder / "runs").exists())
 
 
-class Resume(ShearFlowTest):
+class Promises(CommandPromises, ShearFlowTest):
     LONGER = SMALL.replace("duration = 100", "duration = 400").replace(
         "seed = 4", "seed = 4\nthreads = 2\ncheckpoint_interval = 0.05") + "[output]\nframe_interval = 100\n"
-
-    def test_killed_again_and_again_it_ends_with_the_same_bits(self):
-        self.write("longer.toml", self.LONGER)
-        begin = time.monotonic()
-        self.shear_flow("longer.toml", "--out", "whole")
-        seconds = time.monotonic() - begin
-        moments = random.Random(3)
-        kills = 0
-        for _ in range(60):
-            process = self.start("shear-flow", "longer.toml", "--out", "x")
-            time.sleep(moments.uniform(0.06, 0.06 + 0.15 * seconds))
-            process.kill()
-            process.wait()
-            process.stderr.close()
-            if process.returncode == 0:
-                break
-            kills += 1
-        self.shear_flow("longer.toml", "--out", "x")
-        self.assertGreaterEqual(kills, 3)
-        self.assertEqual(self.contents("x", RESULTS), self.contents("whole", RESULTS))
-        self.assertNotIn("checkpoints", self.entries("x"))
 
 
 if __name__ == "__main__":

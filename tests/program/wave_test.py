@@ -3,14 +3,11 @@
 """`lucy shear-wave` and `lucy temperature-wave`: tables that do not depend on threads or interruptions, refusals,
 failures, frames, pictures."""
 
-import csv
 import json
 import math
-import random
-import time
 import unittest
 
-from running import ProgramTest
+from running import CommandPromises, CommandTest
 
 SMALL = """\
 title = "small waves"
@@ -59,28 +56,23 @@ replicas = 4
 COMPANIONS = ("local.csv", "forms.csv", "amplitude.csv", "notes.txt", "input.toml")
 
 
-class WaveTest(ProgramTest):
+class WaveTest(CommandTest):
+    COMMAND = "shear-wave"
+    KIND = "shear-wave run"
+    SMALL = SMALL
+    RESULTS = ("shear_wave.csv", *COMPANIONS)
+
     def setUp(self):
         super().setUp()
-        self.write("small.toml", SMALL)
         self.write("heat.toml", HEAT)
 
-    def wave(self, *arguments, kind="shear", code=0, says=(), **options):
-        process = self.lucy(f"{kind}-wave", *arguments, **options)
-        self.expect(process, code, *says)
-        return process
-
-    def results(self, directory, kind="shear"):
-        return self.contents(directory, (f"{kind}_wave.csv", *COMPANIONS))
-
-    def table(self, directory, name="shear_wave.csv"):
-        with open(self.folder / directory / name, newline="") as file:
-            return list(csv.DictReader(file))
+    def temperature_wave(self, *arguments, **options):
+        return self.run_input(*arguments, command="temperature-wave", **options)
 
 
 class Results(WaveTest):
     def test_the_tables_say_what_was_asked_and_found(self):
-        process = self.wave("small.toml", "--out", "x")
+        process = self.run_input("small.toml", "--out", "x")
         self.assertEqual(process.stderr, "")
         rows = self.table("x")
         self.assertEqual([row["viscosity"] for row in rows], ["0.5", "0.2", "nan"])
@@ -119,7 +111,7 @@ class Results(WaveTest):
         self.assertEqual(json.loads((self.folder / "x" / "provenance.json").read_text())["seed"], 4)
 
     def test_temperature_waves_too(self):
-        process = self.wave("heat.toml", "--out", "x", kind="temperature")
+        process = self.temperature_wave("heat.toml", "--out", "x")
         row, = self.table("x", "temperature_wave.csv")
         self.assertEqual(float(row["prescribed"]), 0.5)
         self.assertAlmostEqual(float(row["total"]), 0.5, delta=0.15)
@@ -127,33 +119,21 @@ class Results(WaveTest):
         self.assertIn("heating", process.stdout)
         self.assertIn("temperature_wave.csv", process.stdout)
 
-    def test_nothing_depends_on_the_number_of_threads(self):
-        self.wave("small.toml", "--out", "one", "--set", "run.threads=1")
-        self.wave("small.toml", "--out", "three", "--set", "run.threads=3")
-        self.assertEqual(self.results("one"), self.results("three"))
-
-    def test_a_finished_run_is_printed_again(self):
-        arguments = ("small.toml", "--out", "x", "--set", "run.duration=6")
-        first = self.wave(*arguments)
-        again = self.wave(*arguments)
-        self.assertIn("nothing was run", again.stdout)
-        self.assertEqual(first.stdout.split("\nTook")[0], again.stdout.split("\nThis shear-wave run was")[0])
-
     def test_a_short_run_is_flagged_not_refused(self):
-        process = self.wave("small.toml", "--out", "x", "--set", "run.replicas=1")
+        process = self.run_input("small.toml", "--out", "x", "--set", "run.replicas=1")
         self.assertEqual({row["status"] for row in self.table("x")}, {"short"})
         self.assertIn("short: ", process.stdout)
-        process = self.wave("small.toml", "--out", "y", "--set", "fluid.viscosity=0", "--set", "run.duration=8")
+        process = self.run_input("small.toml", "--out", "y", "--set", "fluid.viscosity=0", "--set", "run.duration=8")
         self.assertEqual(self.table("y")[0]["status"], "short")
         self.assertIn("warning: point 1: The amplitude fell to", process.stdout)
         self.assertIn("Point 1 warning", (self.folder / "y" / "notes.txt").read_text())
 
     def test_a_point_that_fails_does_not_stop_the_others(self):
         self.write("hot.toml", HEAT + "energy_tolerance = 1e-5\n[[point]]\n[[point]]\nenergy_tolerance = 1e-30\n")
-        process = self.wave("hot.toml", "--out", "x", kind="temperature", code=1, says=("1 of 2 points failed",))
+        process = self.temperature_wave("hot.toml", "--out", "x", code=1, says=("1 of 2 points failed",))
         self.assertEqual([row["status"] for row in self.table("x", "temperature_wave.csv")], ["ok", "failed"])
         self.assertIn("failed: point 2: replica", process.stdout)
-        again = self.wave("hot.toml", "--out", "x", kind="temperature", code=1, says=("1 of 2 points failed",))
+        again = self.temperature_wave("hot.toml", "--out", "x", code=1, says=("1 of 2 points failed",))
         self.assertIn("failed: point 2: replica", again.stdout)
 
     def test_frames_hold_internal_energies(self):
@@ -161,7 +141,7 @@ class Results(WaveTest):
             import h5py
         except ImportError:
             self.skipTest("no h5py")
-        self.wave("small.toml", "--out", "x", "--set", "output.frame_interval=2", "--set", "run.duration=8")
+        self.run_input("small.toml", "--out", "x", "--set", "output.frame_interval=2", "--set", "run.duration=8")
         with h5py.File(self.folder / "x" / "point_001.h5") as file:
             particles = file["particles/replica_01"]
             self.assertEqual(particles["position/value"].shape, (5, 144, 2))
@@ -181,7 +161,7 @@ class Results(WaveTest):
             self.assertEqual(file["particles/replica_01/position/time"][0], 5)
 
     def test_pictures(self):
-        process = self.wave("small.toml", "--out", "x", environment=self.environment(pictures=True))
+        process = self.run_input("small.toml", "--out", "x", environment=self.environment(pictures=True))
         for name in ("shear_wave.png", "shear_wave.svg", "amplitudes.png", "amplitudes.svg"):
             self.assertIn(name, process.stdout)
             self.assertTrue((self.folder / "x" / name).exists())
@@ -189,29 +169,33 @@ class Results(WaveTest):
 
 class Refusals(WaveTest):
     def test_unsound_points(self):
-        for setting, says in (("run.step=0.6", "at most 0.5"), ("wave.mode=3", "must be at least twice kernel.range"),
-                              ("wave.amplitude=0", "wave.amplitude"), ("system.particles=25", "kernel.range"),
-                              ("fluid.viscosity=-1", "fluid.viscosity"), ("run.duration=nan", "run.duration"),
-                              ("shear.strain_rate=1", "unknown section [shear]"), ("kernel.name='gauss'", "monaghan"),
-                              ("output.sample_interval=0.3", "whole number of steps")):
-            with self.subTest(setting):
-                self.wave("small.toml", "--out", "x", "--set", setting, code=2, says=(says,))
-                self.assertFalse((self.folder / "x").exists())
+        self.expect_refusals(
+            ("run.step=0.6", "at most 0.5"),
+            ("wave.mode=3", "must be at least twice kernel.range"),
+            ("wave.amplitude=0", "wave.amplitude"),
+            ("system.particles=25", "kernel.range"),
+            ("fluid.viscosity=-1", "fluid.viscosity"),
+            ("run.duration=nan", "run.duration"),
+            ("shear.strain_rate=1", "unknown section [shear]"),
+            ("kernel.name='gauss'", "monaghan"),
+            ("output.sample_interval=0.3", "whole number of steps"))
 
     def test_atoms_and_heat_and_fluids_without_entropy(self):
-        self.wave("small.toml", "--out", "x", kind="temperature", code=2,
-                  says=("small.toml:21:", "energy_per_particle"))
-        self.wave("heat.toml", "--set", "fluid.equation_of_state='dense-fluid'", kind="temperature", code=2,
-                  says=("entropy",))
-        self.wave("heat.toml", "--set", "system.reading='md'", code=2, says=("system.energy_per_particle is required",))
-        self.wave("heat.toml", "--set", "system.reading='md'", "--set", "system.energy_per_particle=1", code=2,
-                  says=("heat.toml:4: fluid.viscosity = 0.5 is for smooth particles",))
+        self.temperature_wave("small.toml", "--out", "x", code=2,
+                              says=("small.toml:21:", "energy_per_particle"))
+        self.temperature_wave("heat.toml", "--set", "fluid.equation_of_state='dense-fluid'", code=2,
+                              says=("entropy",))
+        self.run_input("heat.toml", "--set", "system.reading='md'", code=2,
+                       says=("system.energy_per_particle is required",))
+        self.run_input("heat.toml", "--set", "system.reading='md'", "--set", "system.energy_per_particle=1", code=2,
+                       says=("heat.toml:4: fluid.viscosity = 0.5 is for smooth particles",))
 
     def test_a_directory_of_the_other_command_is_left_alone(self):
-        self.wave("heat.toml", "--out", "x", kind="temperature")
-        before = self.results("x", "temperature")
-        self.wave("heat.toml", "--out", "x", code=2, says=("x", "another input"))
-        self.assertEqual(self.results("x", "temperature"), before)
+        self.temperature_wave("heat.toml", "--out", "x")
+        results = ("temperature_wave.csv", *COMPANIONS)
+        before = self.contents("x", results)
+        self.run_input("heat.toml", "--out", "x", code=2, says=("x", "another input"))
+        self.assertEqual(self.contents("x", results), before)
 
     def test_check_and_explain_know_them(self):
         process = self.lucy("check", "small.toml")
@@ -219,6 +203,7 @@ class Refusals(WaveTest):
         self.assertIn("shear-waves", process.stdout)
         self.assertIn("atoms E/N 1", process.stdout)
         self.assertIn("wall time", process.stdout)
+        self.expect(self.lucy("check", "heat.toml"), 2, "heat.toml", "--for shear-wave or --for temperature-wave")
         process = self.lucy("check", "heat.toml", "--for", "temperature-wave")
         self.expect(process, 0)
         self.assertIn("temperature-waves", process.stdout)
@@ -230,29 +215,11 @@ class Refusals(WaveTest):
         self.assertFalse((self.folder / "runs").exists())
 
 
-class Resume(WaveTest):
-    def test_killed_again_and_again_it_ends_with_the_same_bits(self):
-        text = SMALL.replace("particles = 144", "particles = 1024").replace("[[point]]\nviscosity", "[[point]]\n"
-                                                                            "equilibration = 20\nviscosity")
-        self.write("longer.toml", text.replace("seed = 4", "seed = 4\nthreads = 2\ncheckpoint_interval = 0.05"))
-        begin = time.monotonic()
-        self.wave("longer.toml", "--out", "whole")
-        seconds = time.monotonic() - begin
-        moments = random.Random(3)
-        kills = 0
-        for _ in range(60):
-            process = self.start("shear-wave", "longer.toml", "--out", "x")
-            time.sleep(moments.uniform(0.06, 0.06 + 0.15 * seconds))
-            process.kill()
-            process.wait()
-            process.stderr.close()
-            if process.returncode == 0:
-                break
-            kills += 1
-        self.wave("longer.toml", "--out", "x")
-        self.assertGreaterEqual(kills, 3)
-        self.assertEqual(self.results("x"), self.results("whole"))
-        self.assertNotIn("checkpoints", self.entries("x"))
+class Promises(CommandPromises, WaveTest):
+    LONGER = SMALL.replace("particles = 144", "particles = 1024").replace(
+        "[[point]]\nviscosity", "[[point]]\nequilibration = 20\nviscosity").replace(
+            "seed = 4", "seed = 4\nthreads = 2\ncheckpoint_interval = 0.05")
+    PRINTED_AGAIN = ("--set", "run.duration=6")
 
 
 if __name__ == "__main__":

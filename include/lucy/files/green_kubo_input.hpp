@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lucy/cases/green_kubo.hpp"
@@ -35,8 +34,5 @@ GreenKuboInput read_green_kubo(const std::filesystem::path& file, std::span<cons
 /// The same states as text that read_green_kubo accepts and that gives back the same bits; threads and
 /// checkpoint_interval are left out.
 std::string green_kubo_resolved_toml(const GreenKuboInput& input);
-
-/// Meaning, unit, default and range of every key, at most 100 columns wide; `filter` as for explain_text (input.hpp).
-std::string explain_green_kubo(std::string_view filter = {});
 
 }  // namespace lucy::files

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lucy/cases/couette.hpp"
@@ -35,9 +34,5 @@ SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::st
 /// The same points as text that read_sweep accepts and that gives back the same bits: what all points share in the
 /// sections, the rest in one [[point]] table each. Threads and checkpoint_interval are left out: they change no result.
 std::string resolved_toml(const SweepInput& input);
-
-/// What `lucy explain` prints: meaning, unit, default and range of every key, at most 100 columns wide.
-/// `filter`: empty, a section ("run"), a key ("run.step" or "step"). Throws BadInput when there is no such thing.
-std::string explain_text(std::string_view filter = {});
 
 }  // namespace lucy::files

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lucy/cases/isomorphism.hpp"
@@ -35,8 +34,5 @@ IsomorphismInput read_isomorphism(const std::filesystem::path& file, std::span<c
 /// The same cases as text that read_isomorphism accepts and that gives back the same bits; threads and
 /// checkpoint_interval are left out.
 std::string isomorphism_resolved_toml(const IsomorphismInput& input);
-
-/// Meaning, unit, default and range of every key, at most 100 columns wide; `filter` as for explain_text (input.hpp).
-std::string explain_isomorphism(std::string_view filter = {});
 
 }  // namespace lucy::files

@@ -17,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,12 +84,14 @@ struct Section {
 };
 
 struct Schema {
-  std::string introduction;           ///< first paragraph of the explanation
-  std::vector<Section> sections;      ///< in the order of explanation and of the resolved input
-  std::vector<Section> foreign = {};  ///< of other commands' files: refused, `meaning` being the end of the sentence
-  std::vector<Key> keys;              ///< grouped by section; multiplying keys from the outermost to the innermost
-  std::string rows = {};              ///< name of the array of tables that lists rows, such as "point"; empty: none
+  std::string introduction;       ///< first paragraph of the explanation
+  std::vector<Section> sections;  ///< in the order of explanation and of the resolved input
+  std::vector<Key> keys;          ///< grouped by section; multiplying keys from the outermost to the innermost
+  std::string rows = {};          ///< name of the array of tables that lists rows, such as "point"; empty: none
   std::string rows_meaning = {};
+  std::vector<Section> lacking = {};  ///< sections of other commands' files; `meaning`: why these files have none
+  /// The commands whose files have the key `name` in `section` (empty: in any section, any key), for refusals.
+  std::function<std::vector<std::string>(std::string_view section, std::string_view name)> owners = {};
 
   /// The key of that path ("run.step"), or nullptr.
   const Key* find(std::string_view path) const;
@@ -134,8 +137,14 @@ struct ResolvedRow {
 /// Throws BadInput naming line or override, what was found and what is accepted.
 Document read_document(const std::filesystem::path& file, std::span<const std::string> overrides, const Schema& schema);
 
-/// Whether a TOML file has the section [name]. False too for what is no TOML file: read_document will tell why.
-bool has_section(const std::filesystem::path& file, std::string_view name);
+/// What a TOML file writes: the names of its sections, and the keys of its tables of rows.
+struct Outline {
+  std::set<std::string> sections;
+  std::set<std::string> row_keys;
+};
+
+/// `rows`: the name of the tables of rows. Empty for what is no TOML file: read_document will tell why.
+Outline outline_of(const std::filesystem::path& file, std::string_view rows);
 
 /// The rows of a document: its tables of rows, each over the shared values, or else the product of its lists.
 /// Throws BadInput when a required key is missing or the lengths of lists disagree.
@@ -150,7 +159,7 @@ std::string locate_refusal(std::string_view message, const ResolvedRow& row, con
                            const Schema& schema);
 
 /// The keys in words, filtered by section or key (empty: all), wrapped to 100 columns. Throws BadInput.
-std::string explain(const Schema& schema, std::string_view filter);
+std::string explain(const Schema& schema, std::string_view filter = {});
 
 /// What is accepted for one value of a key, as in "must be ...": "a number above 0 and at most 0.2".
 std::string accepted_text(const Key& key);

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lucy/cases/shear_flow.hpp"
@@ -35,8 +34,5 @@ ShearFlowInput read_shear_flow(const std::filesystem::path& file, std::span<cons
 /// The same rows as text that read_shear_flow accepts and that gives back the same bits; threads and
 /// checkpoint_interval are left out.
 std::string shear_flow_resolved_toml(const ShearFlowInput& input);
-
-/// Meaning, unit, default and range of every key, at most 100 columns wide; `filter` as for explain_text (input.hpp).
-std::string explain_shear_flow(std::string_view filter = {});
 
 }  // namespace lucy::files

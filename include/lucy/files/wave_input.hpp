@@ -44,7 +44,4 @@ WaveInput read_wave(cases::WaveQuantity quantity, const std::filesystem::path& f
 /// are left out.
 std::string wave_resolved_toml(const WaveInput& input);
 
-/// Meaning, unit, default and range of every key, at most 100 columns wide; `filter` as for explain_text (input.hpp).
-std::string explain_wave(cases::WaveQuantity quantity, std::string_view filter = {});
-
 }  // namespace lucy::files
