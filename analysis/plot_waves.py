@@ -11,10 +11,13 @@ standard error.
 amplitudes: a(t) over the imposed amplitude against k^2 t, so that a diffusivity nu makes exp(-nu k^2 t) of any wave
 vector. Points that differ in one setting share a panel; the preferred fits are thin lines, the constitutive law dotted.
 
-The other: what diffusivity the points have, by parts; the local one against the gradient and against the noise of the
-particles, in colour where kernel, fluid and disorder are those of the first point; and of atoms nu(k) by the integral
-(or by parts, where there is no integral), beside the Green-Kubo values of the same states where --green-kubo names the
-directory of `lucy green-kubo` (or its viscosity.csv).
+The other: what diffusivity the points have, by parts; the local one against the gradient, in colour where a point
+differs from the first one in prescribed transport or amplitude alone, or has no prescribed transport at all; the local
+one against the noise of the particles, of shear waves without the share of the viscous operator, in colour where a
+point has the fluid and the kernel of the first one; of shear waves the stress that pressure forces set against the
+motion, against the strain, for the first point and those that differ from it in amplitude or size alone; and of atoms
+nu(k) by the integral (or by parts, where there is no integral), beside the Green-Kubo values of the same states where
+--green-kubo names the directory of `lucy green-kubo` (or its viscosity.csv).
 
 Points without curves (those that failed) are named on the terminal.
 """
@@ -42,7 +45,7 @@ QUANTITIES = ("operator", "carried", "total", "integral", "yield_stress")
 NUMBERS = ("wave_vector", "prescribed", "imposed_amplitude", *(name + suffix for name in QUANTITIES
                                                               for suffix in ("", "_error")))
 LOCAL = tuple(name + suffix for name in ("gradient", "diffusivity", "particle_noise") for suffix in ("", "_error"))
-CURVES = ("time", "amplitude", "amplitude_error", "fit")
+CURVES = ("time", "amplitude", "amplitude_error", "fit", "operator", "carried")
 # Setting, its symbol in a label, its name as the title of a panel; a setting of words has no symbol.
 SETTINGS = (("particles", "N", "number of particles"), ("density", "n", "density"), ("kernel", "", "weight function"),
             ("range", "h", "range"), ("equation_of_state", "", "equation of state"),
@@ -51,10 +54,11 @@ SETTINGS = (("particles", "N", "number of particles"), ("density", "n", "density
             ("conductivity", r"\kappa", "conductivity"), ("density_mean", "", "mean of densities"),
             ("disorder", "disorder", "disorder of the start"), ("noise", "noise", "noise of the start"),
             ("uniform", "", "uniform at the start"), ("amplitude", "A", "amplitude"), ("mode", "mode", "mode"))
-MATERIAL = ("density", "kernel", "range", "equation_of_state", "temperature", "bulk_viscosity", "density_mean",
-            "disorder")
+TRANSPORT = ("viscosity", "bulk_viscosity", "conductivity")
+ANY_START = (*TRANSPORT, "particles", "disorder", "noise", "uniform", "amplitude", "mode")
 LEAST_NOISE = 1e-6  # so little only breaks the symmetry of a lattice
 WORDS = {"density_mean": "{} mean", "uniform": "uniform {}"}
+OF_ATOMS, OF_OTHERS = "0.5", "0.8"
 OPERATOR, REST, CARRIED, TOTAL = COLOURS[4], COLOURS[1], COLOURS[2], "black"
 OF_SHEAR = {"stem": "shear_wave", "rest": "pressure_forces", "symbol": r"\nu", "name": "kinematic viscosity",
             "parts": ("viscous operator", "pressure forces", "carried"), "gradient": "strain rate  $k\\,a$"}
@@ -157,7 +161,7 @@ def band(axes, x, value, error, colour, **style):
     axes.fill_between(x, value - error, value + error, where=known, color=colour, alpha=0.25, linewidth=0, **style)
 
 
-def draw_amplitudes_panel(axes, name, group, base, kind):
+def draw_amplitudes_panel(axes, name, group, base):
     end = 0.0
     laws = {}
     for point, colour in zip(group, colours_of(len(group))):
@@ -183,10 +187,15 @@ def draw_amplitudes_panel(axes, name, group, base, kind):
             axes.plot(x, np.exp(-law * x), color=colour if len(laws) > 1 else "0.35", linewidth=0.9, linestyle=":",
                       zorder=1)
     axes.set_xlim(0, end)
-    axes.set_ylim(-0.12, 1.08)
     axes.tick_params(which="both", direction="in", top=True, right=True)
     axes.legend(fontsize=7.5, frameon=False, handlelength=1.4, labelspacing=0.25, borderaxespad=0.3)
     axes.set_title(title_of(name, group, base), loc="left", fontsize=9.5)
+
+
+def lowest_of(points):
+    """Of all curves, in units of the imposed amplitudes; -0.08 at most."""
+    curves = [point.curve["amplitude"] / point.values["imposed_amplitude"] for point in points]
+    return min(np.min(curve, where=np.isfinite(curve), initial=-0.08) for curve in curves)
 
 
 def title_of(name, group, base):
@@ -211,8 +220,9 @@ def draw_amplitudes(points, kind):
                                 sharey=True, layout="constrained")
     for axes in grid.flat[len(groups):]:
         axes.set_axis_off()
+    grid.flat[0].set_ylim(lowest_of(points) - 0.04, 1.08)  # one for all
     for axes, (name, group) in zip(grid.flat, groups):
-        draw_amplitudes_panel(axes, name, group, base, kind)
+        draw_amplitudes_panel(axes, name, group, base)
     for index, axes in enumerate(grid.flat[:len(groups)]):
         if index % columns == 0:
             axes.set_ylabel(r"amplitude  $a(t)/A$")
@@ -257,41 +267,60 @@ def add_legend_of_parts(axes, kind):
 
 
 def colours_by_law(points):
-    """A colour for each prescribed value among the points of the first one's material."""
-    values = sorted({point.values["prescribed"] for point in points if is_of_material(point, points[0])})
+    """A colour for each prescribed value among the points that are in colour."""
+    values = sorted({point.values["prescribed"] for point in points if is_in_colour(point, points[0], ANY_START)})
     return dict(zip(values, colours_of(len(values))))
 
 
-def is_of_material(point, base):
-    """Whether kernel, fluid and start are those of the first point; a gas without a law is one of its own kind."""
+def differs_only_in(point, base, names):
+    return not (point.atoms or base.atoms) and all(value == base.alike[name] for name, value in point.alike.items()
+                                                   if name not in names)
+
+
+def is_in_colour(point, base, names=(*TRANSPORT, "amplitude")):
+    """Whether a point differs in these settings alone, or is a gas without prescribed transport."""
     if point.atoms or base.atoms:
         return False
-    return point.values["prescribed"] == 0 or all(point.settings[name] == base.settings[name] for name in MATERIAL)
+    return point.values["prescribed"] == 0 or differs_only_in(point, base, names)
 
 
-def draw_local(axes, points, kind, against, colours):
-    """Local diffusivities against the gradient, or against the noise."""
+def use_short_logarithms(axes):
+    """A logarithmic ordinate of a decade or two, with numbers at 1, 2 and 5; none where nothing positive is drawn."""
+    if not math.isfinite(axes.dataLim.minpos[1]):
+        return
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
+def draw_local(axes, points, kind, against, colours, **coloured):
+    """Local diffusivities against the gradient, or against the noise; of shear waves then without the operator's."""
+    beyond = kind is OF_SHEAR and against == "particle_noise"
     for point in points:
         if not point.local:
             continue
         x, x_error = point.local[against], point.local[against + "_error"]
         y, y_error = point.local["diffusivity"], point.local["diffusivity_error"]
+        if beyond:
+            y = y - np.nan_to_num(point.values["operator"])
         shown = (x > 0) & (y > 0) & ~(y_error > 0.5 * y)
         if not shown.any():
             continue
-        ours = is_of_material(point, points[0])
-        colour = colours[point.values["prescribed"]] if ours else "0.45" if point.atoms else "0.78"
-        axes.errorbar(x[shown], y[shown], xerr=np.nan_to_num(x_error[shown]), yerr=np.nan_to_num(y_error[shown]),
-                      color=colour, marker="D" if point.atoms else "o", markersize=3, linewidth=0.6, elinewidth=0.6,
-                      zorder=3 if ours else 2)
+        style = {"marker": "D" if point.atoms else "o", "linewidth": 0.6}
+        if is_in_colour(point, points[0], **coloured):
+            axes.errorbar(x[shown], y[shown], xerr=np.nan_to_num(x_error[shown]), yerr=np.nan_to_num(y_error[shown]),
+                          color=colours[point.values["prescribed"]], markersize=3, elinewidth=0.6, zorder=3, **style)
+        else:
+            axes.plot(x[shown], y[shown], color=OF_ATOMS if point.atoms else OF_OTHERS, markersize=2, zorder=2, **style)
     axes.set_xscale("log")
-    axes.set_yscale("log")
+    use_short_logarithms(axes)
     axes.tick_params(which="both", direction="in", top=True, right=True)
-    axes.set_ylabel(f"local  ${kind['symbol']}$   [{DIFFUSIVITY_UNIT}]")
+    axes.set_ylabel(f"local  ${kind['symbol']}${' less operator' * beyond}   [{DIFFUSIVITY_UNIT}]")
 
 
 def draw_bingham(axes, points, colours):
-    """nu + (4/pi) sigma_y/(rho gradient): what the yield stress of the first point makes of each prescribed value."""
+    """nu + (4/pi) sigma_y/(rho gradient), with what is prescribed for the first point and the yield stress fitted."""
     base = points[0]
     stress = base.values["yield_stress"]
     if base.atoms or not stress > 0 or not axes.has_data():
@@ -299,12 +328,60 @@ def draw_bingham(axes, points, colours):
     low, high = axes.get_xlim()
     limits = axes.get_ylim()
     rate = np.geomspace(low, high, 100)
-    for value, colour in colours.items():
-        axes.plot(rate, value + 4 * stress / (math.pi * float(base.settings["density"]) * rate), color=colour,
-                  linewidth=0.8, linestyle="--", zorder=1)
+    law = base.values["prescribed"]
+    axes.plot(rate, law + 4 * stress / (math.pi * float(base.settings["density"]) * rate), color=colours[law],
+              linewidth=1, linestyle="--", zorder=4)
     axes.set_xlim(low, high)
     axes.set_ylim(limits)
     return True
+
+
+def pressure_stress(point):
+    """Amplitudes of strain and of the stress of pressure forces, with the error of the latter, in windows of a twelfth
+    of the record that overlap by half, as long as the mean amplitude is above 5 % of the one imposed.
+
+    Strain: k times the integral of a. Stress: what momentum the mean amplitude lost in the window beyond what viscous
+    forces and moving particles took, over k and the window's length; its error is that of the amplitudes at both
+    ends."""
+    curve, k = point.curve, point.values["wave_vector"]
+    window = max(2, len(curve["time"]) // 12)
+    starts = np.arange(0, len(curve["time"]) - window, window // 2)
+    low = np.flatnonzero(curve["amplitude"] < 0.05 * point.values["imposed_amplitude"])
+    if len(low):
+        starts = starts[starts + window <= low[0]]
+    ends = starts + window
+
+    def integral(rate):
+        steps = np.diff(curve["time"]) * (rate[1:] + rate[:-1]) / 2
+        return np.concatenate(([0.0], np.cumsum(steps)))
+
+    strain, rest = k * integral(curve["amplitude"]), integral(curve["operator"] + curve["carried"]) - curve["amplitude"]
+    scale = float(point.settings["density"]) / (k * (curve["time"][ends] - curve["time"][starts]))
+    error = np.hypot(curve["amplitude_error"][starts], curve["amplitude_error"][ends])
+    return (strain[starts] + strain[ends]) / 2, scale * (rest[ends] - rest[starts]), scale * error
+
+
+def draw_stresses(axes, points):
+    """Stress against strain of the first point and of those that differ from it in amplitude or in size alone."""
+    base = points[0]
+    for name, style in (("amplitude", {"marker": "o", "linestyle": "-"}), ("particles", {"marker": "s",
+                                                                                      "linestyle": "--"})):
+        group = [point for point in points if differs_only_in(point, base, (name,))]
+        group.sort(key=lambda point: float(point.settings[name]))
+        if name == "particles":
+            group = [point for point in group if point is not base]
+        for point, colour in zip(group, colours_of(len(group)) if name == "amplitude" else COLOURS[1::2]):
+            strain, stress, error = pressure_stress(point)
+            shown = (stress > 0) & ~(error > 0.5 * stress)
+            axes.errorbar(strain[shown], stress[shown], yerr=np.nan_to_num(error[shown]), color=colour, markersize=3,
+                          linewidth=0.9, elinewidth=0.6, label=point.text(name), **style)
+    if math.isfinite(axes.dataLim.minpos[1]):
+        axes.set_xscale("log")
+        use_short_logarithms(axes)
+    axes.set_xlabel(r"strain  $k \int \; a\,\mathrm{d}t$")
+    axes.set_ylabel(f"stress of pressure forces   [{lucy_tables.PRESSURE_UNIT}]")
+    axes.tick_params(which="both", direction="in", top=True, right=True)
+    axes.legend(fontsize=8, frameon=False, ncol=2)
 
 
 def read_green_kubo(path):
@@ -332,7 +409,7 @@ def draw_wave_vectors(axes, atoms, green_kubo):
                           yerr=np.nan_to_num([row["viscosity_error"] / density for row in found]), color=colour,
                           marker="s", markerfacecolor="white", markersize=4.5, capsize=2, linestyle="none", zorder=3,
                           label=f"$E/N = {energy:g}$, Green-Kubo")
-    axes.set_yscale("log")
+    use_short_logarithms(axes)
     axes.set_xlim(-0.04 * largest, 1.08 * largest)
     axes.set_xlabel(r"wave vector  $k$   [$1/\sigma$]")
     axes.set_ylabel(r"$\nu(k)$ of atoms   [" + DIFFUSIVITY_UNIT + "]")
@@ -342,7 +419,8 @@ def draw_wave_vectors(axes, atoms, green_kubo):
 
 def draw_summary(points, kind, green_kubo):
     atoms = [point for point in points if point.atoms and math.isfinite(point.values["total"])]
-    panels = 3 if atoms else 2
+    stresses = kind is OF_SHEAR and not points[0].atoms
+    panels = 2 + stresses + bool(atoms)
     height = max(2.9 * panels + 0.4, 0.2 * len(points) + 1.1)
     figure = plt.figure(figsize=(11.2, height), layout="constrained")
     grid = figure.add_gridspec(panels, 2, width_ratios=(1.25, 1))
@@ -357,25 +435,31 @@ def draw_summary(points, kind, green_kubo):
     colours = colours_by_law(points)
     by_gradient, by_noise = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
     draw_local(by_gradient, points, kind, "gradient", colours)
-    draw_local(by_noise, points, kind, "particle_noise", colours)
+    draw_local(by_noise, points, kind, "particle_noise", colours, names=ANY_START)
     handles = [matplotlib.lines.Line2D([], [], color=colour, marker="o", markersize=3, linewidth=0.6)
                for colour in colours.values()]
     labels = [f"prescribed ${value:g}$" if index == 0 else f"${value:g}$" for index, value in enumerate(colours)]
     for label, colour, marker, there in (
-            ("others", "0.78", "o", any(not (p.atoms or is_of_material(p, points[0])) for p in points)),
-            ("atoms", "0.45", "D", any(point.atoms for point in points))):
+            ("others", OF_OTHERS, "o", any(not (p.atoms or is_in_colour(p, points[0])) for p in points)),
+            ("atoms", OF_ATOMS, "D", any(point.atoms for point in points))):
         if there:
             handles.append(matplotlib.lines.Line2D([], [], color=colour, marker=marker, markersize=3, linewidth=0.6))
             labels.append(label)
     if kind is OF_SHEAR and draw_bingham(by_gradient, points, colours):
-        handles.append(matplotlib.lines.Line2D([], [], color="0.35", linewidth=0.8, linestyle="--"))
+        handles.append(matplotlib.lines.Line2D([], [], color=colours[points[0].values["prescribed"]], linewidth=1,
+                                               linestyle="--"))
         labels.append("with a yield stress")
-    by_gradient.legend(handles, labels, fontsize=8, frameon=False, ncol=5, loc="lower left",
-                       bbox_to_anchor=(-0.12, 1.0), columnspacing=1.0, handlelength=1.6, handletextpad=0.4)
+    across = 5
+    by_row = [index for column in range(across) for index in range(column, len(handles), across)]  # it goes by columns
+    by_gradient.legend([handles[index] for index in by_row], [labels[index] for index in by_row], fontsize=8,
+                       frameon=False, ncol=across, loc="lower left", bbox_to_anchor=(-0.12, 1.0), columnspacing=1.0,
+                       handlelength=1.6, handletextpad=0.4)
     by_gradient.set_xlabel(kind["gradient"])
     by_noise.set_xlabel(r"kinetic energy per particle beyond the wave's   [$\epsilon$]")
+    if stresses:
+        draw_stresses(figure.add_subplot(grid[2, 1]), points)
     if atoms:
-        draw_wave_vectors(figure.add_subplot(grid[2, 1]), atoms, green_kubo)
+        draw_wave_vectors(figure.add_subplot(grid[panels - 1, 1]), atoms, green_kubo)
     return figure
 
 

@@ -81,7 +81,7 @@ class WavePictures(unittest.TestCase):
             scale = point["total"] * point["wave_vector"]**2
             for time in np.linspace(0, 3 / scale, 31):
                 a = point["amplitude"] * math.exp(-scale * time)
-                curves.append([number, time, a, 0.001, a, 0.001])
+                curves.append([number, time, a, 0.001, a, -point["operator"] / point["total"] * scale * a, 0, 0.001])
             for a in (0.04, 0.02):
                 local.append([number, point["wave_vector"] * a, 1e-4, point["total"], 0.02, 0.001 * number, 1e-5])
         self.write("amplitude.csv", ["point", *plot_waves.CURVES, "particle_noise"], curves)
@@ -146,9 +146,20 @@ class WavePictures(unittest.TestCase):
         texts = self.texts("shear_wave")
         for label in ("as stated", r"$\eta = 0.1$", "$h = 5$", "monaghan", "disorder 0.1", "pressure forces", "others",
                       "atoms, $E/N = 1$, $N = 4096$", "atoms, $E/N = 1$, $N = 1024$, mode 2", "with a yield stress",
-                      "$E/N = 1$, Green-Kubo", "$E/N = 0.5$, waves"):
+                      "$E/N = 1$, Green-Kubo", "$E/N = 0.5$, waves", "$A = 0.05$"):
             self.assertEqual(texts.count(label), 1, label)
         self.assertNotIn("$E/N = 0.5$, Green-Kubo", texts)
+
+    def test_the_stress_of_pressure_forces_is_what_the_other_parts_leave(self):
+        self.tables()
+        base = plot_waves.read_points(self.folder, plot_waves.OF_SHEAR)[0]
+        strain, stress, error = plot_waves.pressure_stress(base)
+        # nu of pressure forces times the strain rate k a, and k int a dt = (k A - k a)/(k^2 nu), of a made-up wave
+        k, nu = base.values["wave_vector"], base.values["total"]
+        rates = k * base.values["imposed_amplitude"] - k**2 * nu * strain
+        np.testing.assert_allclose(stress, (nu - base.values["operator"]) * rates, rtol=0.01)
+        self.assertTrue(np.all(rates > 0.04 * rates[0]))
+        self.assertTrue(np.all(error > 0))
 
     def test_temperature_waves_have_parts_of_their_own(self):
         self.points = self.points[:5]
