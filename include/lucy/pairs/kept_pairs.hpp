@@ -55,4 +55,54 @@ class KeptPairs {
   std::vector<Block> blocks_;
 };
 
+/// Where a pass is among the kept pairs of its block.
+template <Keeping keeping>
+class KeptCursor {
+ public:
+  explicit KeptCursor(KeptPairs::Block& block)
+      : block_(block),
+        within_(block.within.data()),
+        along_(block.along.data()),
+        entry_(block.entries.data()),
+        cluster_end_(block.cluster_end.data()) {}
+
+  Lanes* within() const { return within_; }
+  Lanes* along() const { return along_; }
+
+  /// Past the entry `now`, which is left only if someone was met there; without a branch, what nobody needs is
+  /// overwritten.
+  void pass(const RowEntry& now, bool met) {
+    if constexpr (keeping == Keeping::leaves) {
+      *entry_ = now;
+      entry_ += static_cast<std::ptrdiff_t>(met);
+      along_ += static_cast<std::ptrdiff_t>(met);
+    } else {
+      ++along_;
+    }
+  }
+  void end_cluster() {
+    if constexpr (keeping == Keeping::leaves)
+      *cluster_end_++ = static_cast<std::uint32_t>(entry_ - block_.entries.data());
+    within_ += lane_count / 2;
+  }
+
+ private:
+  KeptPairs::Block& block_;
+  Lanes* within_;
+  Lanes* along_;
+  RowEntry* entry_;
+  std::uint32_t* cluster_end_;
+};
+
+/// For a pass that keeps nothing.
+template <>
+class KeptCursor<Keeping::nothing> {
+ public:
+  explicit KeptCursor(KeptPairs::Block&) {}
+  Lanes* within() const { return nullptr; }
+  Lanes* along() const { return nullptr; }
+  void pass(const RowEntry&, bool) {}
+  void end_cluster() {}
+};
+
 }  // namespace lucy::pairs

@@ -76,12 +76,11 @@ LUCY_INLINE Lanes squared_length(const std::array<Lanes, D>& displacement) {
 }
 
 /// What has to be known of a particle and the eight of a cluster before the sum can begin.
-template <int D, class Sum, class Columns>
-LUCY_INLINE void measure(const Columns& columns, const Lanes& range_squared, std::size_t home, std::size_t lane,
+template <int D, class Sum>
+LUCY_INLINE void measure(const Pass<D, Sum>& pass, const Lanes& range_squared, std::size_t home, std::size_t lane,
                          std::size_t cluster, const space::ImageShift<D>& shift, Pair<D, Sum::carried>& pair) {
   unrolled<D>([&](auto d) {
-    pair.displacement[d] =
-        (columns.position_of(d, home)[lane] - shift.position[d]) - load(columns.position_of(d, cluster));
+    pair.displacement[d] = (pass.position_of(d, home)[lane] - shift.position[d]) - load(pass.position_of(d, cluster));
   });
   if constexpr (Sum::keeping != Keeping::finds)
     pair.distance = sqrt(simd::min(squared_length(pair.displacement), range_squared));
@@ -100,8 +99,8 @@ LUCY_INLINE void call(const Sum& sum, Pair<D, Sum::carried>& pair, Lanes* kept, 
 }
 
 /// The sum over the pairs of a particle with the eight of `cluster`, an image of which is shifted by `shift`.
-template <int D, class Sum, class Columns>
-LUCY_INLINE void pair_with_cluster(const Columns& columns, const Sum& sum, Pair<D, Sum::carried>& pair,
+template <int D, class Sum>
+LUCY_INLINE void pair_with_cluster(const Pass<D, Sum>& pass, const Sum& sum, Pair<D, Sum::carried>& pair,
                                    const std::array<Lanes, Sum::carried>& of_i, std::size_t cluster,
                                    const space::ImageShift<D>& shift, Lanes* kept, Given<Sum>& at_i,
                                    std::array<Lanes, Sum::totals>& totals) {
@@ -109,31 +108,31 @@ LUCY_INLINE void pair_with_cluster(const Columns& columns, const Sum& sum, Pair<
     pair.of_i[c] = of_i[c];
     if constexpr (Sum::lab_velocity >= 0 && c >= Sum::lab_velocity && c < Sum::lab_velocity + D)
       pair.of_i[c] -= shift.velocity[c - Sum::lab_velocity];
-    pair.of_j[c] = load(columns.carried_of(c, cluster));
+    pair.of_j[c] = load(pass.carried_of(c, cluster));
   });
   Given<Sum> to_i;
   Given<Sum> to_j;
   call(sum, pair, kept, to_i, to_j, totals);
   unrolled<Sum::given>([&](auto c) {
     at_i[c] += to_i[c];
-    double* target = columns.given_to(c, cluster);
+    double* target = pass.given_to(c, cluster);
     store(target, load(target) + to_j[c]);
   });
 }
 
 /// The pairs of a cluster's own eight that are `turn` lanes apart: lane l with lane l + turn, each pair once. Adds to
 /// `own`.
-template <int turn, int D, class Sum, class Columns>
-LUCY_INLINE void pair_within_cluster(const Columns& columns, const Sum& sum, const Lanes& range_squared,
+template <int turn, int D, class Sum>
+LUCY_INLINE void pair_within_cluster(const Pass<D, Sum>& pass, const Sum& sum, const Lanes& range_squared,
                                      const Lanes& once, std::size_t cluster, Lanes* kept, Given<Sum>& own,
                                      std::array<Lanes, Sum::totals>& totals) {
   Pair<D, Sum::carried> pair;
   unrolled<D>([&](auto d) {
-    const Lanes mine = load(columns.position_of(d, cluster));
+    const Lanes mine = load(pass.position_of(d, cluster));
     pair.displacement[d] = mine - rotate<turn>(mine);
   });
   unrolled<Sum::carried>([&](auto c) {
-    pair.of_i[c] = load(columns.carried_of(c, cluster));
+    pair.of_i[c] = load(pass.carried_of(c, cluster));
     pair.of_j[c] = rotate<turn>(pair.of_i[c]);
   });
   if constexpr (Sum::keeping != Keeping::finds) {
@@ -147,11 +146,10 @@ LUCY_INLINE void pair_within_cluster(const Columns& columns, const Sum& sum, con
   unrolled<Sum::given>([&](auto c) { own[c] += to_i[c] + rotate<lane_count - turn>(to_j[c]); });
 }
 
-template <int D, class Sum, class Columns>
+template <int D, class Sum>
 LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block& block, const ImageTable<D>& images,
-                                           double range, const Columns columns, const Sum sum,
-                                           KeptPairs::Block* const kept) {
-  constexpr bool leaves = Sum::keeping == Keeping::leaves;
+                                           double range, const Pass<D, Sum> pass, const Sum sum,
+                                           KeptPairs::Block& kept_of_block) {
   constexpr bool finds = Sum::keeping == Keeping::finds;
   const Lanes range_squared = range * range;
   std::array<double, lane_count> upper_half{};  // range squared in lanes 4 to 7
@@ -163,42 +161,32 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
   // cluster.
   std::array<std::array<Lanes, lane_count>, Sum::given> at_i;  // one row per particle of the cluster
   const space::ImageShift<D>* const shifts = images.data();
-  const RowEntry* const entries = finds ? kept->entries.data() : block.entries.data();
-  const std::uint32_t* cluster_end = finds ? kept->cluster_end.data() : block.cluster_end.data();
+  const RowEntry* const entries = finds ? kept_of_block.entries.data() : block.entries.data();
+  const std::uint32_t* cluster_end = finds ? kept_of_block.cluster_end.data() : block.cluster_end.data();
   const RowEntry* entry = entries;
-  Lanes* kept_within = nullptr;
-  Lanes* kept_along = nullptr;
-  RowEntry* kept_entry = nullptr;
-  std::uint32_t* kept_end = nullptr;
-  if constexpr (leaves || finds) {
-    kept_within = kept->within.data();
-    kept_along = kept->along.data();
-    kept_entry = kept->entries.data();
-    kept_end = kept->cluster_end.data();
-  }
+  KeptCursor<Sum::keeping> kept(kept_of_block);
   for (std::size_t cluster = block.first_cluster; cluster < block.last_cluster; ++cluster, ++cluster_end) {
     // Distances are known one entry ahead of their use, so that the root's long latency is hidden. The entry after the
-    // last of the cluster is measured in vain.
+    // last of the cluster is measured in vain. Who finds slopes needs no root, and looks at once.
     const auto look = [&](const RowEntry& e, Pair<D, Sum::carried>& pair) {
-      measure<D, Sum>(columns, range_squared, cluster, e.lane(), e.cluster(), shifts[e.image()], pair);
+      measure(pass, range_squared, cluster, e.lane(), e.cluster(), shifts[e.image()], pair);
     };
     Pair<D, Sum::carried> ahead;
     if constexpr (!finds) look(*entry, ahead);
     Given<Sum> own;
-    unrolled<Sum::given>([&](auto c) { own[c] = load(columns.given_to(c, cluster)); });
-    pair_within_cluster<1, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
-    pair_within_cluster<2, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
-    pair_within_cluster<3, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
-    pair_within_cluster<4, D>(columns, sum, range_squared, once, cluster, kept_within, own, totals);
-    unrolled<Sum::given>([&](auto c) { store(columns.given_to(c, cluster), own[c]); });
-    if constexpr (leaves || finds) kept_within += lane_count / 2;
+    unrolled<Sum::given>([&](auto c) { own[c] = load(pass.given_to(c, cluster)); });
+    pair_within_cluster<1>(pass, sum, range_squared, once, cluster, kept.within(), own, totals);
+    pair_within_cluster<2>(pass, sum, range_squared, once, cluster, kept.within(), own, totals);
+    pair_within_cluster<3>(pass, sum, range_squared, once, cluster, kept.within(), own, totals);
+    pair_within_cluster<4>(pass, sum, range_squared, once, cluster, kept.within(), own, totals);
+    unrolled<Sum::given>([&](auto c) { store(pass.given_to(c, cluster), own[c]); });
     const RowEntry* const end = entries + *cluster_end;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       std::array<Lanes, Sum::carried> of_i;
-      unrolled<Sum::carried>([&](auto c) { of_i[c] = columns.carried_of(c, cluster)[lane]; });
+      unrolled<Sum::carried>([&](auto c) { of_i[c] = pass.carried_of(c, cluster)[lane]; });
       Given<Sum> given;
       unrolled<Sum::given>([&](auto c) { given[c] = 0.0; });
-      for (; entry != end && entry->lane() == lane;) {
+      while (entry != end && entry->lane() == lane) {
         Pair<D, Sum::carried> pair;
         const RowEntry now = *entry;
         ++entry;
@@ -209,20 +197,14 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
           pair.distance = ahead.distance;
           look(*entry, ahead);
         }
-        pair_with_cluster<D>(columns, sum, pair, of_i, now.cluster(), shifts[now.image()], kept_along, given, totals);
-        if constexpr (leaves) {  // without a branch: what nobody needs is overwritten
-          *kept_entry = now;
-          const std::ptrdiff_t kept = simd::any_of(pair.distance < range) ? 1 : 0;
-          kept_entry += kept;
-          kept_along += kept;
-        }
-        if constexpr (finds) ++kept_along;
+        pair_with_cluster(pass, sum, pair, of_i, now.cluster(), shifts[now.image()], kept.along(), given, totals);
+        kept.pass(now, finds || simd::any_of(pair.distance < range));
       }
       unrolled<Sum::given>([&](auto c) { at_i[c][lane] = given[c]; });
     }
-    if constexpr (leaves) *kept_end++ = static_cast<std::uint32_t>(kept_entry - kept->entries.data());
+    kept.end_cluster();
     unrolled<Sum::given>([&](auto c) {
-      double* const target = columns.given_to(c, cluster);
+      double* const target = pass.given_to(c, cluster);
       store(target, load(target) + sums_of_rows(at_i[c]));
     });
   }
@@ -233,19 +215,20 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
 
 }  // namespace detail
 
-/// Sums over all pairs within `range`. Adds to what is given, returns the totals. The
-/// same bits for every team. `kept`: for a sum that leaves or finds something; for one that finds, as left by a pass
-/// with the same list, images and positions.
-template <int D, class Columns, class Sum>
-Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, double range, const Columns& columns,
+/// Sums over all pairs within `range`. Adds to what is given, returns the totals. The same bits for every team. `kept`:
+/// for a sum that leaves or finds something; for one that finds, as left by a pass with the same list, images and
+/// positions.
+template <int D, class Sum>
+Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, double range, const Pass<D, Sum>& pass,
                      const Sum& sum, const Team& team, KeptPairs* kept = nullptr) {
   if constexpr (Sum::keeping == Keeping::leaves) kept->fit(list);
   const auto blocks = list.blocks();
   const auto count = static_cast<std::ptrdiff_t>(blocks.size());
+  KeptPairs::Block none;
   const auto over = [&](std::ptrdiff_t b) {
     const auto block = static_cast<std::size_t>(b);
-    return detail::traverse_block<D, Sum>(blocks[block], images, range, columns, sum,
-                                          Sum::keeping == Keeping::nothing ? nullptr : &(*kept)[block]);
+    return detail::traverse_block<D, Sum>(blocks[block], images, range, pass, sum,
+                                          Sum::keeping == Keeping::nothing ? none : (*kept)[block]);
   };
   Totals<Sum> total{};
   const auto add = [&](const Totals<Sum>& part) {
