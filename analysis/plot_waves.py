@@ -319,23 +319,6 @@ def draw_local(axes, points, kind, against, colours, **coloured):
     axes.set_ylabel(f"local  ${kind['symbol']}${' less operator' * beyond}   [{DIFFUSIVITY_UNIT}]")
 
 
-def draw_bingham(axes, points, colours):
-    """nu + (4/pi) sigma_y/(rho gradient), with what is prescribed for the first point and the yield stress fitted."""
-    base = points[0]
-    stress = base.values["yield_stress"]
-    if base.atoms or not stress > 0 or not axes.has_data():
-        return False
-    low, high = axes.get_xlim()
-    limits = axes.get_ylim()
-    rate = np.geomspace(low, high, 100)
-    law = base.values["prescribed"]
-    axes.plot(rate, law + 4 * stress / (math.pi * float(base.settings["density"]) * rate), color=colours[law],
-              linewidth=1, linestyle="--", zorder=4)
-    axes.set_xlim(low, high)
-    axes.set_ylim(limits)
-    return True
-
-
 def pressure_stress(point):
     """Amplitudes of strain and of the stress of pressure forces, with the error of the latter, in windows of a twelfth
     of the record that overlap by half, as long as the mean amplitude is above 5 % of the one imposed.
@@ -445,10 +428,6 @@ def draw_summary(points, kind, green_kubo):
         if there:
             handles.append(matplotlib.lines.Line2D([], [], color=colour, marker=marker, markersize=3, linewidth=0.6))
             labels.append(label)
-    if kind is OF_SHEAR and draw_bingham(by_gradient, points, colours):
-        handles.append(matplotlib.lines.Line2D([], [], color=colours[points[0].values["prescribed"]], linewidth=1,
-                                               linestyle="--"))
-        labels.append("with a yield stress")
     across = 5
     by_row = [index for column in range(across) for index in range(column, len(handles), across)]  # it goes by columns
     by_gradient.legend([handles[index] for index in by_row], [labels[index] for index in by_row], fontsize=8,

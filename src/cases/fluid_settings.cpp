@@ -72,6 +72,12 @@ void validate(const FluidSettings& settings) {
   }
   const spam::Fluid<2> fluid = fluid_of(settings);
   fluid.validate();
+  if (settings.replicas > 1 && settings.disorder == 0.0 && settings.noise == 0.0) {
+    throw BadInput(
+        fmt::format("run.replicas = {} must be 1 with start.disorder = 0 and start.noise = 0, which make all replicas "
+                    "the same; set one of these above 0",
+                    settings.replicas));
+  }
   if (settings.uniform == UniformStart::entropy && settings.equation_of_state != spam::EquationOfStateName::ideal_gas) {
     throw BadInput(
         "start.uniform = \"entropy\" is for fluid.equation_of_state = \"ideal-gas\" only; use "
@@ -83,6 +89,15 @@ void validate(const FluidSettings& settings) {
         fmt::format("system.density = {} must be below {} for the van der Waals fluid, whose particles fill all space "
                     "at density {}",
                     settings.density, 0.8 / spam::VanDerWaals::excluded, 1.0 / spam::VanDerWaals::excluded));
+  }
+  if (settings.equation_of_state == spam::EquationOfStateName::van_der_waals) {
+    const double spinodal = spam::VanDerWaals::spinodal_temperature(settings.density);
+    if (!(settings.temperature > spinodal)) {
+      throw BadInput(
+          fmt::format("fluid.temperature = {} must be above {:.6g} for a van der Waals fluid of density {}: below, a "
+                      "uniform one falls apart into liquid and gas",
+                      settings.temperature, spinodal, settings.density));
+    }
   }
 }
 

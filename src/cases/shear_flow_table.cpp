@@ -112,6 +112,14 @@ std::vector<std::string> warnings_of(const ShearFlowRow& row, const statistics::
         "the replicas differ by more than their error bars allow (chi squared {:.3g} for {} degree{} of "
         "freedom, p = {:.1g}): do not believe the error bar, run longer",
         spread.chi_squared, spread.degrees_of_freedom, spread.degrees_of_freedom == 1 ? "" : "s", spread.p_value));
+  const statistics::Estimate& made = row[shear_flow_quantity("heating")];
+  const statistics::Estimate& removed = row[shear_flow_quantity("heat_removed")];
+  const double apart = std::abs(made.value - removed.value);
+  if (const double error = std::hypot(made.error, removed.error); error > 0.0 && apart > 4.0 * error)
+    warnings.push_back(
+        fmt::format("heat made and heat removed differ by {:.2g} errors: the flow is not steady yet, so do not believe "
+                    "the error bars; lengthen run.equilibration",
+                    apart / error));
   return warnings;
 }
 

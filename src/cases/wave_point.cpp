@@ -98,11 +98,6 @@ void validate_fluid(const WavePoint& point) {
         "the entropy, which the isentropic and the dense fluid do not have");
   if (point.amplitude >= 1.0)
     refuse(fmt::format("wave.amplitude = {} must be below 1, or temperatures would not be positive", point.amplitude));
-  if (!(prescribed_diffusivity(point) >= 0.0))
-    refuse(
-        fmt::format("fluid.temperature = {} at system.density = {} is too low for a uniform van der Waals fluid: it "
-                    "would fall apart into liquid and gas",
-                    point.temperature, point.density));
 }
 
 void validate_intervals(const WavePoint& point) {
@@ -164,9 +159,8 @@ double prescribed_diffusivity(const WavePoint& point) {
   // c_P = c_V + T (dP/dT)^2/(rho^2 dP/drho), with c_V = 1 for both fluids that have an entropy.
   double heat_capacity = 2.0;
   if (point.equation_of_state == spam::EquationOfStateName::van_der_waals) {
-    const double free = 1.0 - spam::VanDerWaals::excluded * point.density;
-    const double attraction = 2.0 * spam::VanDerWaals::attraction * point.density * free * free;
-    heat_capacity = 1.0 + point.temperature / (point.temperature - attraction);
+    const double spinodal = spam::VanDerWaals::spinodal_temperature(point.density);
+    heat_capacity = 1.0 + point.temperature / (point.temperature - spinodal);
   }
   return point.conductivity / (point.density * heat_capacity);
 }

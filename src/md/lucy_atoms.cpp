@@ -8,7 +8,8 @@ template <int D>
 pairs::PairTotals<D> lucy_forces(const kernel::Lucy<D>& kernel, const pairs::ClusterList<D>& list,
                                  const pairs::ImageTable<D>& images, const std::array<const double*, D>& position,
                                  const std::array<double*, D>& force, pairs::Wanted wanted, const Team& team) {
-  return pairs::sum_forces<D>(kernel, pairs::AtomCoefficient{}, list, images, position, {}, force, wanted, team);
+  pairs::KeptPairs none;  // atoms have one pass only
+  return pairs::sum_forces<D>(kernel, pairs::AtomCoefficient{}, list, images, position, {}, force, wanted, team, none);
 }
 
 template pairs::PairTotals<1> lucy_forces<1>(const kernel::Lucy<1>&, const pairs::ClusterList<1>&,

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "lucy/archive.hpp"
-#include "lucy/cases/couette.hpp"
+#include "lucy/cases/frame.hpp"
 #include "lucy/files/frame_spool.hpp"
 #include "lucy/files/h5md.hpp"
 #include "lucy/statistics/pooling.hpp"

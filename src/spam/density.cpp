@@ -16,7 +16,7 @@ void densities(const kernel::Weight<D>& weight, const pairs::ClusterList<D>& lis
         using Sum = DensitySum<D, Kernel>;
         std::fill_n(density, list.slots(), kernel.weight_at_zero());
         const pairs::Pass<D, Sum> pass{position, {}, {density}};
-        pairs::traverse<D>(list, images, kernel.range(), pass, Sum{kernel}, team, &slopes);
+        pairs::traverse<D>(list, images, kernel.range(), pass, Sum{kernel}, team, slopes);
       },
       weight);
 }

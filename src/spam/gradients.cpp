@@ -25,7 +25,7 @@ void SmoothParticles<D>::find_gradients(const Particles<D>& particles, const Tea
       std::fill_n(gradients_[c], particles.list.slots(), 0.0);
     }
     pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns, Sum{kernel, particles.strain_rate},
-                       team, &slopes_);
+                       team, slopes_);
   };
   std::visit(
       [&](const auto& kernel) {

@@ -18,7 +18,7 @@ pairs::PairTotals<D> isentropic_forces(const kernel::Lucy<D>& kernel, const Isen
     specific_pressure[slot] = state.pressure(rho) / (rho * rho);
   }
   return pairs::sum_forces<D>(kernel, pairs::SmoothCoefficient{}, list, images, position, {specific_pressure}, force,
-                              wanted, team, &slopes);
+                              wanted, team, slopes);
 }
 
 template pairs::PairTotals<1> isentropic_forces<1>(const kernel::Lucy<1>&, const Isentropic&,

@@ -30,7 +30,7 @@ void SmoothParticles<D>::find_rates(const Particles<D>& particles, const Team& t
     for (int d = 0; d < D; ++d) columns.given[d] = acceleration_[d];
     columns.given[D] = energy_rate_[0];
     const auto totals = pairs::traverse<D>(particles.list, particles.images, kernel.range(), columns,
-                                           Sum{kernel, particles.strain_rate}, team, &slopes_);
+                                           Sum{kernel, particles.strain_rate}, team, slopes_);
     virial_xy_ = totals[0];
   };
   std::visit(

@@ -160,6 +160,23 @@ TEST(ShearFlowTable, BandsAndReplicasThatDisagreeAreWarnedOf) {
   EXPECT_NE(row.warnings[1].find("replicas differ"), std::string::npos);
 }
 
+TEST(ShearFlowTable, AFlowThatStillHeatsUpIsWarnedOf) {
+  ShearFlowRecord one = record(0.01, 5);
+  std::mt19937_64 generator(6);
+  std::normal_distribution<double> normal;
+  const auto with_removed = [&](double removed) {
+    for (ShearFlowSample& sample : one.samples) {
+      sample.averages[shear_flow_average("heating")] = 0.0058 + 0.0005 * normal(generator);
+      sample.averages[shear_flow_average("heat_removed")] = removed + 0.0005 * normal(generator);
+    }
+    return summarize(sheared(), std::span(&one, 1)).warnings;
+  };
+  EXPECT_TRUE(with_removed(0.0058).empty());
+  const auto warnings = with_removed(0.0050);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("not steady"), std::string::npos) << warnings[0];
+}
+
 TEST(ShearFlowTable, AddsUpWhatTheWatchSaw) {
   std::vector<ShearFlowRecord> records = {record(0.01, 1), record(0.01, 2)};
   records[0].worst_energy_error = 1e-8;

@@ -543,5 +543,25 @@ TEST(FluidTrajectory, TheInviscidIdealGasMovesAsTheAtomsDoOnAnotherClock) {
   for (std::size_t i = 0; i < density.size(); ++i) EXPECT_NEAR(energy[i], density[i], 1e-5);
 }
 
+// The general path, with an energy equation beside it, from step to step: nothing in it knows of this equation of
+// state.
+TEST(FluidTrajectory, OfAnIsentropicFluidIsThatOfTheAtomsToTheBit) {
+  Start<2> atoms;
+  atoms.lengths = {16.0, 16.0};
+  FluidStart<2> start = waves<2>(16, 0.2, 0.5, 9);
+  atoms.position = start.position;
+  atoms.momentum = start.velocity;
+  const kernel::Lucy<2> lucy(3.0);
+  Trajectory<2> md(lucy, atoms, Shear{.strain_rate = 0.0, .thermostat = Thermostat::none}, Integrator::runge_kutta_4,
+                   Watch{}, Team(1));
+  FluidTrajectory<2> spam({lucy, spam::Isentropic(), {}}, start, 0.0, Cooling::none, Watch{}, Team(1));
+  for (int step = 0; step < 2000; ++step) {
+    md.advance(0.05);
+    spam.advance(0.05);
+  }
+  EXPECT_EQ(md.positions(), spam.positions());
+  EXPECT_EQ(md.momenta(), spam.velocities());
+}
+
 }  // namespace
 }  // namespace lucy::motion

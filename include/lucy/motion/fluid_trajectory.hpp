@@ -16,7 +16,9 @@
 //     Cooling::none           chi = 0: the flow heats up
 //     Cooling::isoenergetic   chi = -rate P_xy V / sum e: U is constant. Every particle gives up the same share of its
 //                             internal energy per time, as under a Gaussian thermostat it does of its kinetic energy;
-//                             no momentum is touched, and no temperature gradient is made.
+//                             no momentum is touched. Where e is proportional to T, in the ideal gas, this makes no
+//                             temperature gradient; a van der Waals fluid (e = T - a rho) cools less where it is dense,
+//                             and for the dense fluid it depends on where its e is zero.
 // The integral of dU/dt is carried along, so that the integrator's own error can be told from it and watched.
 #pragma once
 

@@ -32,7 +32,7 @@ class KeptPairs {
     std::vector<Lanes> along;   ///< per entry
   };
 
-  /// Makes room for all pairs of `list`, 80 bytes for an entry.
+  /// Makes room for all pairs of `list`, 72 bytes for an entry.
   template <int D>
   void fit(const ClusterList<D>& list) {
     const auto rows = list.blocks();

@@ -107,13 +107,13 @@ struct PairTotals {
   Tensor<D> virial = Tensor<D>::Zero();  ///< sum_{i<j} r_ij F_ij, symmetric: V times the potential pressure tensor
 };
 
-/// One pass with either coefficient: overwrites `force` (D columns, slots as the list arranged them). `slopes`: for a
-/// coefficient that finds them.
+/// One pass with either coefficient: overwrites `force` (D columns, slots as the list arranged them). `slopes`: what a
+/// coefficient finds that finds them.
 template <int D, Wanted wanted, class Coefficient>
 PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const Coefficient& coefficient, const ClusterList<D>& list,
                          const ImageTable<D>& images, const std::array<const double*, D>& position,
                          const std::array<const double*, Coefficient::carried>& carried,
-                         const std::array<double*, D>& force, const Team& team, KeptPairs* slopes = nullptr) {
+                         const std::array<double*, D>& force, const Team& team, KeptPairs& slopes) {
   using Sum = PairForce<D, wanted, Coefficient>;
   for (double* column : force) std::fill_n(column, list.slots(), 0.0);
   const Pass<D, Sum> pass{position, carried, force};
@@ -138,8 +138,7 @@ template <int D, class Coefficient>
 PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const Coefficient& coefficient, const ClusterList<D>& list,
                          const ImageTable<D>& images, const std::array<const double*, D>& position,
                          const std::array<const double*, Coefficient::carried>& carried,
-                         const std::array<double*, D>& force, Wanted wanted, const Team& team,
-                         KeptPairs* slopes = nullptr) {
+                         const std::array<double*, D>& force, Wanted wanted, const Team& team, KeptPairs& slopes) {
   const auto sum = [&]<Wanted w>() {
     return sum_forces<D, w, Coefficient>(kernel, coefficient, list, images, position, carried, force, team, slopes);
   };

@@ -220,15 +220,15 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
 /// positions.
 template <int D, class Sum>
 Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, double range, const Pass<D, Sum>& pass,
-                     const Sum& sum, const Team& team, KeptPairs* kept = nullptr) {
-  if constexpr (Sum::keeping == Keeping::leaves) kept->fit(list);
+                     const Sum& sum, const Team& team, KeptPairs& kept) {
+  if constexpr (Sum::keeping == Keeping::leaves) kept.fit(list);
   const auto blocks = list.blocks();
   const auto count = static_cast<std::ptrdiff_t>(blocks.size());
   KeptPairs::Block none;
   const auto over = [&](std::ptrdiff_t b) {
     const auto block = static_cast<std::size_t>(b);
     return detail::traverse_block<D, Sum>(blocks[block], images, range, pass, sum,
-                                          Sum::keeping == Keeping::nothing ? none : (*kept)[block]);
+                                          Sum::keeping == Keeping::nothing ? none : kept[block]);
   };
   Totals<Sum> total{};
   const auto add = [&](const Totals<Sum>& part) {
@@ -247,6 +247,15 @@ Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, do
     }
   }
   return total;
+}
+
+/// The same for a sum that keeps nothing.
+template <int D, class Sum>
+requires(Sum::keeping == Keeping::nothing) Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images,
+                                                                double range, const Pass<D, Sum>& pass, const Sum& sum,
+                                                                const Team& team) {
+  KeptPairs none;
+  return traverse<D, Sum>(list, images, range, pass, sum, team, none);
 }
 
 }  // namespace lucy::pairs

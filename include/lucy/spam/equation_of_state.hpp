@@ -84,6 +84,12 @@ class VanDerWaals {
   static constexpr double excluded = 0.5;            ///< b
   static constexpr double densest = 1.0 / excluded;  ///< where the pressure diverges, to turn negative beyond
 
+  /// Where dP/drho at constant temperature vanishes: colder, a uniform fluid is unstable.
+  static constexpr double spinodal_temperature(double density) {
+    const double free = 1.0 - excluded * density;
+    return 2.0 * attraction * density * free * free;
+  }
+
   double pressure(double density, double energy) const {
     return density * temperature(density, energy) / (1.0 - excluded * density) - attraction * density * density;
   }
