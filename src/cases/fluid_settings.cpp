@@ -72,12 +72,6 @@ void validate(const FluidSettings& settings) {
   }
   const spam::Fluid<2> fluid = fluid_of(settings);
   fluid.validate();
-  if (settings.replicas > 1 && settings.disorder == 0.0 && settings.noise == 0.0) {
-    throw BadInput(
-        fmt::format("run.replicas = {} must be 1 with start.disorder = 0 and start.noise = 0, which make all replicas "
-                    "the same; set one of these above 0",
-                    settings.replicas));
-  }
   if (settings.uniform == UniformStart::entropy && settings.equation_of_state != spam::EquationOfStateName::ideal_gas) {
     throw BadInput(
         "start.uniform = \"entropy\" is for fluid.equation_of_state = \"ideal-gas\" only; use "

@@ -125,7 +125,9 @@ std::vector<std::string> warnings_of(const ShearFlowRow& row, const statistics::
 
 }  // namespace
 
-ShearFlowRow summarize(const ShearFlowPoint& point, std::span<const ShearFlowRecord> replicas) {
+ShearFlowRow summarize(const ShearFlowPoint& point, std::span<const ShearFlowRecord> all_replicas) {
+  const bool alike = all_replicas.size() > 1 && all_replicas_alike(point);
+  const auto replicas = alike ? all_replicas.first(1) : all_replicas;
   ShearFlowRow row = row_head(point, recorded_time(point.duration, replicas));
   for (const ShearFlowRecord& record : replicas) {
     row.worst_energy_error = std::max(row.worst_energy_error, record.worst_energy_error);
@@ -151,6 +153,9 @@ ShearFlowRow summarize(const ShearFlowPoint& point, std::span<const ShearFlowRec
     spread = statistics::replica_spread(series_of_quantity(point, replicas, cuts, shear_flow_quantity("viscosity")));
   }
   row.warnings = warnings_of(row, spread);
+  if (alike)
+    row.warnings.emplace_back(
+        "all replicas are the same, since start.disorder and start.noise are 0: the first alone counts");
   return row;
 }
 

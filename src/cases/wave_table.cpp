@@ -280,7 +280,9 @@ std::string_view rest_name(WaveQuantity quantity) {
   return quantity == WaveQuantity::shear ? "pressure_forces" : "heating";
 }
 
-WaveResult summarize(const WavePoint& point, std::span<const WaveRecord> replicas) {
+WaveResult summarize(const WavePoint& point, std::span<const WaveRecord> all_replicas) {
+  const bool alike = all_replicas.size() > 1 && point.reading == motion::Reading::spam && all_replicas_alike(point);
+  const auto replicas = alike ? all_replicas.first(1) : all_replicas;
   WaveResult result;
   WaveRow& row = result.row;
   row = empty_row(point);
@@ -302,6 +304,9 @@ WaveResult summarize(const WavePoint& point, std::span<const WaveRecord> replica
   compare_forms(wave, result);
   fill_curve(wave, replicas, result.curve);
   conclude(wave, row);
+  if (alike)
+    row.warnings.emplace_back(
+        "All replicas are the same, since start.disorder and start.noise are 0: the first alone counts.");
   return result;
 }
 

@@ -160,6 +160,17 @@ TEST(ShearFlowTable, BandsAndReplicasThatDisagreeAreWarnedOf) {
   EXPECT_NE(row.warnings[1].find("replicas differ"), std::string::npos);
 }
 
+TEST(ShearFlowTable, ReplicasOfALatticeAtRestCountOnce) {
+  const std::vector<ShearFlowRecord> records = {record(0.01, 1), record(0.01, 1)};
+  ShearFlowPoint lattice = sheared();
+  lattice.disorder = lattice.noise = 0.0;
+  const ShearFlowRow row = summarize(lattice, records);
+  const ShearFlowRow alone = summarize(lattice, std::span(records).first(1));
+  EXPECT_EQ(row[shear_flow_quantity("viscosity")].error, alone[shear_flow_quantity("viscosity")].error);
+  ASSERT_EQ(row.warnings.size(), 1U);
+  EXPECT_NE(row.warnings[0].find("all replicas are the same"), std::string::npos) << row.warnings[0];
+}
+
 TEST(ShearFlowTable, AFlowThatStillHeatsUpIsWarnedOf) {
   ShearFlowRecord one = record(0.01, 5);
   std::mt19937_64 generator(6);

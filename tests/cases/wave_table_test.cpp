@@ -27,6 +27,7 @@ WavePoint point_of(WaveQuantity quantity = WaveQuantity::shear) {
   point.particles = 4096;
   point.viscosity = 0.3;
   point.conductivity = 0.3;
+  point.noise = 0.01;
   point.step = 0.5;
   point.duration = 1000.0;
   return point;
@@ -170,6 +171,18 @@ TEST(WaveTable, HeatHasNoStresses) {
     EXPECT_TRUE(std::isnan(of(result.row, quantity).value));
   for (const WaveForm& form : result.forms) EXPECT_TRUE(std::isnan(form.yield_stress.value));
   EXPECT_EQ(rest_name(WaveQuantity::temperature), "heating");
+}
+
+TEST(WaveTable, ReplicasOfALatticeAtRestCountOnceAndHaveNoErrors) {
+  WavePoint lattice = point_of();
+  lattice.noise = 0.0;
+  const auto records = records_of(
+      lattice, [](double time) { return 0.05 * std::exp(-time / 200.0); }, 4, 0.0);
+  const WaveRow row = summarize(lattice, records).row;
+  EXPECT_EQ(row.status, RowStatus::too_short);
+  EXPECT_TRUE(std::isnan(row.estimates[wave_quantity("total")].error));
+  ASSERT_FALSE(row.warnings.empty());
+  EXPECT_NE(row.warnings.back().find("All replicas are the same"), std::string::npos) << row.warnings.back();
 }
 
 TEST(WaveTable, ASingleReplicaIsShortAndHasNoErrors) {

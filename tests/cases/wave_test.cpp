@@ -116,23 +116,8 @@ TEST(Wave, ThePartsAccountForAllThatATemperatureWaveLoses) {
 }
 
 // The operator of a lattice is weaker than that of a continuum by what its kernel sums do to a wave of this length.
-TEST(Wave, RefusesReplicasOfALatticeAtRestWhichWouldBeAlike) {
-  WavePoint point = small(WaveQuantity::shear);
-  point.disorder = point.noise = 0.0;
-  point.replicas = 2;
-  try {
-    validate(point);
-    FAIL();
-  } catch (const BadInput& refused) {
-    EXPECT_NE(std::string(refused.what()).find("run.replicas = 2 must be 1"), std::string::npos) << refused.what();
-  }
-  point.noise = 1e-6;
-  EXPECT_NO_THROW(validate(point));
-}
-
 TEST(Wave, TheViscousOperatorOfALatticeIsKnown) {
   WavePoint point;
-  point.replicas = 1;
   point.particles = 4096;
   point.viscosity = 0.7;
   for (const auto& [weight, factor] :
@@ -155,7 +140,6 @@ TEST(Wave, TheViscousOperatorOfALatticeIsKnown) {
 TEST(Wave, TheConductionOperatorOfALatticeIsThatOfItsViscosity) {
   WavePoint point;
   point.quantity = WaveQuantity::temperature;
-  point.replicas = 1;
   point.particles = 4096;
   point.conductivity = 0.5;
   point.amplitude = 1e-5;  // e'/T is linear for small ones only
@@ -172,7 +156,6 @@ TEST(Wave, TheEntropyThatAllParticlesHaveAlikeMakesNoWave) {
   WavePoint point = small(WaveQuantity::temperature);
   point.viscosity = point.bulk_viscosity = point.conductivity = 0.0;
   point.disorder = point.noise = 0.0;
-  point.replicas = 1;
   point.amplitude = 0.2;
   const double imposed = 10.0 * (1.0 - std::sqrt(0.96));  // of log(1 + 0.2 sin): (2/A) [1 - (1 - A^2)^(1/2)]
   for (const double temperature : {0.5, 1.0, 3.0}) {

@@ -54,6 +54,11 @@ struct FluidSettings {
 
 spam::Fluid<2> fluid_of(const FluidSettings& settings);
 
+/// Of a lattice at rest there is one only: all replicas are the same, and their scatter is no error.
+inline bool all_replicas_alike(const FluidSettings& settings) {
+  return settings.disorder == 0.0 && settings.noise == 0.0;
+}
+
 /// One start for each seed (a 64-bit Mersenne twister). A uniform entropy is that of `temperature` and `density`: the
 /// ideal gas gets e = kT rho/n, with rho the density at each particle.
 motion::FluidStart<2> fluid_start(const FluidSettings& settings, std::uint64_t seed);
