@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lucy/errors.hpp"
+#include "lucy/files/benard_grid_input.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/isomorphism_input.hpp"
@@ -62,6 +63,8 @@ Schema schema_of(InputKind kind) {
       return shear_flow_schema();
     case InputKind::shear_wave:
       return wave_schema(cases::WaveQuantity::shear);
+    case InputKind::benard_grid:
+      return benard_grid_schema();
     case InputKind::temperature_wave:
       break;
   }
@@ -85,6 +88,7 @@ InputKind kind_of_input(const std::filesystem::path& file, std::span<const std::
   for (const std::string& override : overrides) written.sections.insert(override.substr(0, override.find('.')));
   for (const std::string& key : written.row_keys) written.sections.merge(sections_of_row_key(key));
   const auto has = [&](const char* section) { return written.sections.contains(section); };
+  if (has("cell") || has("grid")) return InputKind::benard_grid;
   if (has("isentropic")) return InputKind::isomorphism;
   const bool of_fluid = has("fluid") || has("start");
   if (has("wave") || (of_fluid && !has("shear"))) return kind_of_wave(file, overrides);

@@ -24,7 +24,7 @@ class CaseExperiment : public Experiment {
   int threads() const final { return input_.threads; }
   double checkpoint_interval() const final { return input_.checkpoint_interval; }
   std::uint64_t seed() const final { return input_.points.front().seed; }
-  std::string generator() const final {
+  std::string generator() const override {
     return "64-bit Mersenne twister (std::mt19937_64), one per replica, seeded from the seed, the replica's number" +
            also_seeded_from();
   }
@@ -47,7 +47,7 @@ class CaseExperiment : public Experiment {
 
  protected:
   /// Ends the sentence on the generator: ", N and E/N".
-  virtual std::string also_seeded_from() const = 0;
+  virtual std::string also_seeded_from() const { return ""; }
 
   std::vector<std::string> with_point_files(std::vector<std::string> names) const {
     for (std::size_t i = 0; i < input_.points.size(); ++i) names.push_back(point_file_name(i));

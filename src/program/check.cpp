@@ -21,6 +21,8 @@
 
 #include "lucy/archive.hpp"
 #include "lucy/files/all_inputs.hpp"
+#include "lucy/files/benard_grid_input.hpp"
+#include "lucy/files/benard_grid_text.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/isomorphism_input.hpp"
@@ -30,6 +32,7 @@
 #include "lucy/files/wave_input.hpp"
 #include "lucy/files/wave_text.hpp"
 #include "lucy/measure/correlator.hpp"
+#include "program/benard_grid_point.hpp"
 #include "program/commands.hpp"
 #include "program/couette_point.hpp"
 #include "program/green_kubo_point.hpp"
@@ -146,6 +149,21 @@ std::vector<std::vector<std::string>> rows_of(const files::WaveInput& input) {
   return table;
 }
 
+std::vector<std::vector<std::string>> rows_of(const files::BenardGridInput& input) {
+  std::vector<std::vector<std::string>> table = {
+      {"", "fluid", "find", "viscosity", "conductivity", "step", "duration at most"}};
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const cases::BenardGridPoint point = cases::resolved(input.points[i]);
+    std::string_view goal;
+    for (const auto& [name, value] : cases::benard_goal_names)
+      if (value == point.find) goal = name;
+    table.push_back({fmt::format("{}", i + 1), files::benard_grid_label(point), std::string(goal),
+                     format_plain(*point.viscosity), format_plain(*point.conductivity), format_plain(*point.step),
+                     format_plain(*point.duration)});
+  }
+  return table;
+}
+
 /// Keys that are set but that no row makes use of, and what would.
 std::vector<std::string> keys_without_effect(const std::vector<cases::CouettePoint>& points) {
   using cases::CouettePoint;
@@ -232,6 +250,11 @@ Planned planned(const cases::WavePoint& point) {
   measurable.duration = 1e6 * measurable.sample_interval;
   measurable.particles = std::min(point.particles, most_particles);
   return {std::make_unique<WaveStatePoint>(point), std::make_unique<WaveStatePoint>(measurable)};
+}
+
+Planned planned(const cases::BenardGridPoint& point) {
+  // Its intervals are short.
+  return {std::make_unique<BenardGridStatePoint>(point), std::make_unique<BenardGridStatePoint>(point)};
 }
 
 struct Measurement {
@@ -386,12 +409,33 @@ DiskUse predict_disk_use(const files::GreenKuboInput& input, double /*state_byte
   return use;
 }
 
-/// Whose particle-steps work is counted in, where those of different points cost differently.
-template <class Input>
-std::string_view unit_of_work(const Input& /*input*/) {
-  return "";
+DiskUse predict_disk_use(const files::BenardGridInput& input, double state_bytes, bool /*at_most*/) {
+  DiskUse use{picture_bytes * static_cast<double>(input.points.size()), 0.0};
+  for (const auto& point : input.points) {
+    const double nodes = static_cast<double>(point.cells) * cases::flow_settings(point).cells_x;
+    const double samples = static_cast<double>(cases::interval_count(point)) * sizeof(cases::BenardGridSample);
+    use.results += nodes * 32.0 + samples + hdf5_bytes;
+    use.checkpoints += 2.0 * (state_bytes + samples);
+  }
+  return use;
 }
-std::string_view unit_of_work(const files::WaveInput& /*input*/) { return ", as of atoms with range 3"; }
+
+/// The unit in which work is counted: steps of particles, or of nodes.
+struct WorkWords {
+  std::string_view unit = "particle";
+  std::string_view as_of = {};  ///< whose particles', where those of different points cost differently
+  std::string_view limit = {};  ///< where a run may end before its last milestone, and mostly does
+  bool counted = true;          ///< whether their number is the system's size
+};
+
+template <class Input>
+WorkWords words_of_work(const Input& /*input*/) {
+  return {};
+}
+WorkWords words_of_work(const files::WaveInput& /*input*/) { return {.as_of = ", as of atoms with range 3"}; }
+WorkWords words_of_work(const files::BenardGridInput& /*input*/) {
+  return {.unit = "node", .limit = "at most ", .counted = false};
+}
 
 template <class Input>
 int predict(const Input& input, const std::vector<std::string>& idle_keys) {
@@ -446,17 +490,19 @@ int predict(const Input& input, const std::vector<std::string>& idle_keys) {
     return open_ended ? fmt::format("{} to {}", least, most) : least;
   };
 
-  const std::string_view unit = unit_of_work(input);
-  fmt::print("\nwork: {} particle-steps{}\n",
-             span(count_text(work(small_least, large_least)), count_text(work(small_most, large_most))), unit);
+  const WorkWords words = words_of_work(input);
+  fmt::print("\nwork: {}{} {}-steps{}\n", words.limit,
+             span(count_text(work(small_least, large_least)), count_text(work(small_most, large_most))), words.unit,
+             words.as_of);
   const auto say_speed = [&](const Measurement& measured, std::int64_t particles, int busy, std::string_view how) {
-    fmt::print("speed: {} ns per particle and step{}, {}, measured just now on this machine with N = {} ({} busy)\n",
-               measured.speed > 0.0 ? format_plain(1e9 / measured.speed, 3) : "unknown", unit, how, particles,
+    fmt::print("speed: {} ns per {} and step{}, {}, measured just now on this machine{} ({} busy)\n",
+               measured.speed > 0.0 ? format_plain(1e9 / measured.speed, 3) : "unknown", words.unit, words.as_of, how,
+               words.counted ? fmt::format(" with N = {}", particles) : "",
                busy == 1 ? "1 thread" : fmt::format("{} threads", busy));
   };
   if (small_point) say_speed(small, small_point->particles(), copies, "one replica on each thread");
   if (large_point) say_speed(large, large_point->particles(), threads, "one replica on all threads");
-  fmt::print("wall time: about {}\n",
+  fmt::print("wall time: {}about {}\n", words.limit,
              span(duration_text(seconds(small_least, large_least)), duration_text(seconds(small_most, large_most))));
   const double state_bytes = std::max(small.state_bytes, large.state_bytes);
   const DiskUse least = predict_disk_use(input, state_bytes, false);
@@ -483,6 +529,8 @@ int check(const InputRequest& request, std::optional<files::InputKind> kind) {
       return predict(files::read_shear_flow(request.input, request.overrides), {});
     case files::InputKind::shear_wave:
       return predict(files::read_wave(cases::WaveQuantity::shear, request.input, request.overrides), {});
+    case files::InputKind::benard_grid:
+      return predict(files::read_benard_grid(request.input, request.overrides), {});
     case files::InputKind::temperature_wave:
       break;
   }

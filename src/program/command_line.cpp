@@ -46,6 +46,7 @@ constexpr std::string_view short_help =
     "  lucy shear-flow INPUT [--out DIR] [--set ...]...    viscous fluids of smooth particles under shear\n"
     "  lucy shear-wave INPUT [--out DIR] [--set ...]...    decaying waves: what viscosity particles have, and why\n"
     "  lucy temperature-wave INPUT [--out DIR] ...         the same of thermal diffusivity\n"
+    "  lucy benard-grid INPUT [--out DIR] [--set ...]...   convection of a continuum between hot and cold walls\n"
     "  lucy check INPUT [--set key=value]...               say what any of these would do and cost\n"
     "  lucy compare TABLE --with NAME                      a table beside a published one\n"
     "  lucy viscosity SWEEP... GREEN-KUBO                  both routes and print side by side\n"
@@ -157,8 +158,9 @@ int run_program(int argument_count, const char* const* argument_values) {
   }
 
   CLI::App program(
-      "Lucy: molecular dynamics of the Lucy fluid, out of equilibrium and at rest.\n"
-      "Shear viscosities with error bars, after Posch, Hoover and Kum, Phys. Rev. E 52, 1711 (1995).",
+      "Lucy: molecular dynamics of the Lucy fluid, out of equilibrium and at rest, and smooth particles (SPAM, SPH) by "
+      "the\n"
+      "same kernels. Shear viscosities with error bars, after Posch, Hoover and Kum, Phys. Rev. E 52, 1711 (1995).",
       "lucy");
   program.require_subcommand(1);
   program.set_version_flag("--version", version_text(), "Version, commit, compiler and its flags");
@@ -275,10 +277,20 @@ int run_program(int argument_count, const char* const* argument_values) {
       "\nExample:\n"
       "  lucy temperature-wave inputs/temperature_wave.toml");
 
+  auto* benard_grid_command = program.add_subcommand(
+      "benard-grid", "Convection of a continuum between a hot floor and a cold ceiling, extrapolated over meshes");
+  add_input(benard_grid_command);
+  benard_grid_command->footer(
+      "\nInterrupted, the same command resumes and ends with the same bits.\n"
+      "\nExamples:\n"
+      "  lucy benard-grid inputs/benard_grid.toml\n"
+      "  lucy benard-grid inputs/benard_critical.toml --set 'fluid.transport=\"kinematic\"' --out runs/kinematic");
+
   auto* check_command = program.add_subcommand("check", "Validate an input and predict its cost; run nothing");
   add_input(check_command);
   check_command->footer(
       "\nWithout --for, a file is taken for an input of the command whose sections it writes:\n"
+      "  [cell] or [grid]                     benard-grid\n"
       "  [isentropic]                         isomorphism\n"
       "  [fluid] or [start], with [shear]     shear-flow\n"
       "  [fluid] or [start], or [wave]        shear-wave or temperature-wave, the one that accepts it; where both do,\n"
@@ -295,12 +307,13 @@ int run_program(int argument_count, const char* const* argument_values) {
     command->add_option("--for", kind, text)->transform(CLI::CheckedTransformer(kinds))->type_name("COMMAND");
   };
   add_kind(check_command,
-           "sweep, green-kubo, isomorphism, shear-flow, shear-wave or temperature-wave; default: by the sections of "
-           "the file, as told below");
+           "sweep, green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave or benard-grid; default: by the "
+           "sections of the file, as told below");
 
   auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
   std::string filter;
-  add_kind(explain_command, "sweep (the default), green-kubo, isomorphism, shear-flow, shear-wave or temperature-wave");
+  add_kind(explain_command,
+           "sweep (the default), green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave or benard-grid");
   explain_command->add_option("KEY", filter, "A section (run) or a key (run.step); default: all of them");
   explain_command->set_help_flag("-h,--help", "This text");
   explain_command->footer(
@@ -384,7 +397,7 @@ int run_program(int argument_count, const char* const* argument_values) {
     if (!out.empty()) request.out = out;
     for (const auto* command :
          {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command, shear_wave_command,
-          temperature_wave_command, check_command, viscosity_command, fields_command})
+          temperature_wave_command, benard_grid_command, check_command, viscosity_command, fields_command})
       if (out.empty() && command->count("--out") > 0) throw BadInput("--out is empty where a directory is expected");
     if (sweep_command->parsed()) return sweep(request);
     if (green_kubo_command->parsed()) {
@@ -415,6 +428,7 @@ int run_program(int argument_count, const char* const* argument_values) {
     if (shear_flow_command->parsed()) return shear_flow(request);
     if (shear_wave_command->parsed()) return wave(request, cases::WaveQuantity::shear);
     if (temperature_wave_command->parsed()) return wave(request, cases::WaveQuantity::temperature);
+    if (benard_grid_command->parsed()) return benard_grid(request);
     if (check_command->parsed()) return check(request, kind);
     if (explain_command->parsed()) return explain(filter, kind.value_or(files::InputKind::sweep));
     if (viscosity_command->parsed()) {

@@ -44,6 +44,10 @@ int shear_flow(const InputRequest& request);
 /// companions (wave.cpp).
 int wave(const InputRequest& request, cases::WaveQuantity quantity);
 
+/// Lets a continuum convect between a hot floor and a cold ceiling, mesh by mesh, or goes on with it; writes
+/// benard_grid.csv and its companions (benard_grid.cpp).
+int benard_grid(const InputRequest& request);
+
 /// A stress series that another program sampled.
 struct SeriesRequest {
   std::filesystem::path file;

@@ -123,6 +123,7 @@ class CommandPromises:
 
     LONGER = None
     EXTRA = ()
+    OTHER = "run.seed=5"  # another input
     PRINTED_AGAIN = ()
     LONGEST_WAIT = 0.15  # between kills, as a part of the whole
 
@@ -140,7 +141,7 @@ class CommandPromises:
     def test_a_directory_of_something_else_is_left_alone(self):
         self.run_input("small.toml", "--out", "x", *self.PRINTED_AGAIN)
         before = self.results("x")
-        self.run_input("small.toml", "--out", "x", *self.PRINTED_AGAIN, "--set", "run.seed=5", code=2,
+        self.run_input("small.toml", "--out", "x", *self.PRINTED_AGAIN, "--set", self.OTHER, code=2,
                        says=("x", "another input"))
         self.assertEqual(self.results("x"), before)
         (self.folder / "y").mkdir()
