@@ -145,7 +145,8 @@ std::string explanation(std::span<const WaveRow> rows, WaveQuantity quantity) {
             : "conduction; carried: entropy that particles take along; heating: the rest, viscous heating and "
               "compression that is not adiabatic. at the start: the operator's rate over kappa k^2/(rho c_V).");
   text += wrapped("form: ",
-                  "the simplest that the replicas' likelihood does not speak against: exponential; yielding, "
+                  "the simplest that the replicas' likelihood (of too few: the residuals) does not speak against: "
+                  "exponential; yielding, "
                   "a' = -G a - c; viscoelastic, a'' + a'/tau + (G/tau) a = 0. fitted: G/k^2.");
   if (shear && preferred(DecayForm::yielding))
     text += wrapped("yield stress: ", "pi rho c/(4 k), and in units of the pressure.");

@@ -5,6 +5,7 @@
 // (case_point.hpp), whose results become the Rows of the results file.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,6 +28,18 @@ class CaseExperiment : public Experiment {
   std::string generator() const override {
     return "64-bit Mersenne twister (std::mt19937_64), one per replica, seeded from the seed, the replica's number" +
            also_seeded_from();
+  }
+
+  Appetite appetite(int threads) const final {
+    Appetite largest;
+    for (const auto& point : input_.points) {
+      if constexpr (requires { point.particles * 1.0; }) {
+        const int replicas = std::min(threads, point.replicas);
+        const double bytes = static_cast<double>(point.particles) * replicas * Point::bytes_per_particle;
+        if (bytes > largest.bytes) largest = {point.particles, replicas, bytes};
+      }
+    }
+    return largest;
   }
 
   std::vector<StatePoint*> prepare(const std::filesystem::path& directory,

@@ -55,6 +55,9 @@ class CaseStatePoint : public StatePoint {
  public:
   using Record = std::remove_cvref_t<decltype(std::declval<const Run&>().record())>;
 
+  /// Of a replica on its way, as the system counts them for large ones: those of one system of atoms.
+  static constexpr double bytes_per_particle = 275.0;
+
   /// `series`: where the point's H5MD file goes, if it has one.
   explicit CaseStatePoint(const Point& settings, std::filesystem::path series = {},
                           const files::H5mdAuthorship& authorship = {})

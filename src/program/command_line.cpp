@@ -17,6 +17,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -304,7 +305,16 @@ int run_program(int argument_count, const char* const* argument_values) {
   const std::map<std::string, files::InputKind> kinds(files::command_names.begin(), files::command_names.end());
   std::optional<files::InputKind> kind;
   const auto add_kind = [&](CLI::App* command, const char* text) {
-    command->add_option("--for", kind, text)->transform(CLI::CheckedTransformer(kinds))->type_name("COMMAND");
+    const auto choose = [&](const std::string& name) {
+      const auto found = kinds.find(name);
+      if (found == kinds.end())
+        throw CLI::ValidationError(fmt::format(
+            "--for = \"{}\" must be one of {}", name,
+            fmt::join(files::command_names | std::views::transform([](const auto& known) { return known.first; }),
+                      ", ")));
+      kind = found->second;
+    };
+    command->add_option_function<std::string>("--for", choose, text)->type_name("COMMAND");
   };
   add_kind(check_command,
            "sweep, green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave or benard-grid; default: by the "

@@ -103,6 +103,14 @@ class Experiment {
   virtual std::uint64_t seed() const = 0;
   virtual std::string generator() const = 0;  ///< of random numbers, in words
 
+  /// What the largest of the points takes while it runs on so many threads.
+  struct Appetite {
+    std::int64_t particles = 0;
+    int replicas = 0;  ///< at a time
+    double bytes = 0.0;
+  };
+  virtual Appetite appetite(int threads) const = 0;
+
   /// Makes the state points, which write into `directory`; they live as long as the experiment.
   virtual std::vector<StatePoint*> prepare(const std::filesystem::path& directory,
                                            const files::H5mdAuthorship& authorship) = 0;

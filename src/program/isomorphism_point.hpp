@@ -17,6 +17,8 @@ namespace lucy::program {
 class IsomorphismStatePoint final
     : public CaseStatePoint<cases::IsomorphismPoint, cases::IsomorphismRun, cases::IsomorphismRow> {
  public:
+  static constexpr double bytes_per_particle = 850.0;  // both systems
+
   using CaseStatePoint::CaseStatePoint;
 
   std::string label() const override;

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 #include <pwd.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <span>
 #include <string>
@@ -119,6 +121,27 @@ void write_record(const fs::path& directory, const InputRequest& request, const 
   files::write_provenance(directory / "provenance.json", provenance);
 }
 
+/// What this machine has, or the process is allowed, in bytes.
+double memory_at_hand() {
+  const double physical =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  rlimit allowed{};
+  if (::getrlimit(RLIMIT_AS, &allowed) != 0 || allowed.rlim_cur == RLIM_INFINITY) return physical;
+  return std::min(physical, static_cast<double>(allowed.rlim_cur));
+}
+
+void refuse_what_memory_cannot_hold(const Experiment& experiment) {
+  const int threads = experiment.threads() > 0 ? experiment.threads() : available_cores();
+  const auto [particles, replicas, bytes] = experiment.appetite(threads);
+  const double memory = memory_at_hand();
+  if (bytes > memory) {
+    throw BadInput(
+        fmt::format("system.particles = {} takes about {:.0f} GB of memory with {} replica{} at a time, and there are "
+                    "{:.0f} GB",
+                    particles, 1e-9 * bytes, replicas, replicas == 1 ? "" : "s", 1e-9 * memory));
+  }
+}
+
 }  // namespace
 
 int run_experiment(const InputRequest& request, Experiment& experiment) {
@@ -127,6 +150,7 @@ int run_experiment(const InputRequest& request, Experiment& experiment) {
   const fs::path directory = request.out.value_or(fs::path("runs") / request.input.stem());
   const auto look = [&] { return look_at_directory(directory, resolved, kind, experiment.results_file()); };
   if (look() == DirectoryState::finished) return print_again(directory, experiment);
+  refuse_what_memory_cannot_hold(experiment);
 
   make_directory(directory);
   const files::DirectoryLock lock(directory);

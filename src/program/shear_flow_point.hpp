@@ -16,6 +16,8 @@ namespace lucy::program {
 class ShearFlowStatePoint final
     : public NotingStatePoint<cases::ShearFlowPoint, cases::ShearFlowRun, cases::ShearFlowRow> {
  public:
+  static constexpr double bytes_per_particle = 1150.0;  // the columns and kept pairs of a fluid
+
   using NotingStatePoint::NotingStatePoint;
 
   std::string label() const override;

@@ -16,6 +16,8 @@ namespace lucy::program {
 
 class WaveStatePoint final : public CaseStatePoint<cases::WavePoint, cases::WaveRun, cases::WaveResult> {
  public:
+  static constexpr double bytes_per_particle = 1150.0;  // the columns and kept pairs of a fluid
+
   using CaseStatePoint::CaseStatePoint;
 
   std::string label() const override;

@@ -4,6 +4,7 @@
 
 import csv
 import os
+import resource
 import shutil
 import subprocess
 import unittest
@@ -70,6 +71,19 @@ class CommandLine(ProgramTest):
                 self.expect(process, 2, says)
                 self.assertEqual(process.stdout, "")
         self.assertEqual(self.entries(), before)
+
+    def test_what_memory_cannot_hold_is_refused_before_anything_is_written(self):
+        allowed = (8 << 30, 8 << 30)
+        process = self.lucy("sweep", "tiny.toml", "--out", "x", "--set", "system.particles=100000000",
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, allowed))
+        self.expect(process, 2, "system.particles = 100000000", "GB of memory", "there are 9 GB")
+        self.assertEqual(self.entries(), ["tiny.toml"])
+
+    def test_an_unknown_kind_of_input_names_those_there_are(self):
+        for command in ("check", "explain"):
+            for kind in ("shearflow", "3"):
+                self.expect(self.lucy(command, *["tiny.toml"] * (command == "check"), "--for", kind), 2,
+                            f'--for = "{kind}"', "sweep, green-kubo", "shear-flow")
 
     def test_check_predicts_and_writes_nothing(self):
         process = self.lucy("check", "tiny.toml", "--set", "run.threads=1", "--set", "run.target_relative_error=0.01")
