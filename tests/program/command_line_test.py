@@ -85,6 +85,11 @@ class CommandLine(ProgramTest):
                 self.expect(self.lucy(command, *["tiny.toml"] * (command == "check"), "--for", kind), 2,
                             f'--for = "{kind}"', "sweep, green-kubo", "shear-flow")
 
+    def test_explain_says_whose_input_has_a_key_that_this_one_has_not(self):
+        for filter in ("fluid.viscosity", "[fluid]", "conductivity"):
+            self.expect(self.lucy("explain", filter), 2, "--for shear-flow or --for shear-wave")
+        self.expect(self.lucy("explain", "fluid.viscosty"), 2, "no section or key")
+
     def test_check_predicts_and_writes_nothing(self):
         process = self.lucy("check", "tiny.toml", "--set", "run.threads=1", "--set", "run.target_relative_error=0.01")
         self.expect(process, 0)
