@@ -17,7 +17,6 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -307,11 +306,11 @@ int run_program(int argument_count, const char* const* argument_values) {
   const auto add_kind = [&](CLI::App* command, const char* text) {
     const auto choose = [&](const std::string& name) {
       const auto found = kinds.find(name);
-      if (found == kinds.end())
-        throw CLI::ValidationError(fmt::format(
-            "--for = \"{}\" must be one of {}", name,
-            fmt::join(files::command_names | std::views::transform([](const auto& known) { return known.first; }),
-                      ", ")));
+      if (found == kinds.end()) {
+        std::vector<std::string_view> names;
+        for (const auto& [known, of] : files::command_names) names.push_back(known);
+        throw CLI::ValidationError(fmt::format("--for = \"{}\" must be one of {}", name, fmt::join(names, ", ")));
+      }
       kind = found->second;
     };
     command->add_option_function<std::string>("--for", choose, text)->type_name("COMMAND");
