@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "lucy/pairs/cluster_list.hpp"
@@ -44,8 +43,8 @@ class KeptPairs {
       const std::size_t clusters = rows[b].last_cluster - rows[b].first_cluster;
       grow(blocks_[b].cluster_end, clusters);
       grow(blocks_[b].within, clusters * lane_count / 2);
-      grow(blocks_[b].entries, rows[b].entries.size() + 1);
-      grow(blocks_[b].along, rows[b].entries.size() + 1);
+      grow(blocks_[b].entries, rows[b].entries.size());
+      grow(blocks_[b].along, rows[b].entries.size());
     }
   }
 

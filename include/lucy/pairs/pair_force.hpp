@@ -107,8 +107,8 @@ struct PairTotals {
   Tensor<D> virial = Tensor<D>::Zero();  ///< sum_{i<j} r_ij F_ij, symmetric: V times the potential pressure tensor
 };
 
-/// One pass with either coefficient: overwrites `force` (D columns, slots as the list arranged them). `slopes`: what a
-/// coefficient finds that finds them.
+/// One pass with either coefficient: overwrites `force` (D columns, slots as the list arranged them). `slopes`: for a
+/// coefficient that finds them, as the pass for the densities left them.
 template <int D, Wanted wanted, class Coefficient>
 PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const Coefficient& coefficient, const ClusterList<D>& list,
                          const ImageTable<D>& images, const std::array<const double*, D>& position,
