@@ -19,14 +19,19 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
       cooling_(cooling),
       watch_(watch),
       team_(team),
-      near_(space::Box<D>(start.lengths, strain_rate), start.position.size(), kernel::range_of<D>(fluid.weight)),
+      walls_(space::Cell<D>(start.lengths, start.walls, kernel::range_of<D>(fluid.weight)), start.position.size(),
+             kernel::range_of<D>(fluid.weight)),
+      near_(space::Box<D>(walls_.cell().box_lengths(), strain_rate), start.position.size(),
+            kernel::range_of<D>(fluid.weight), walls_.most()),
       fluid_(fluid, near_.capacity()),
       now_{space::Columns(columns, near_.capacity()), {}},
       next_{space::Columns(columns, near_.capacity()), {}},
       sum_(columns, near_.capacity()) {
+  if (walls_.any() && (strain_rate != 0.0 || cooling != Cooling::none))
+    throw BadInput("a fluid between walls is neither sheared by sliding images nor cooled by a thermostat");
   for (std::size_t i = 0; i < start.position.size(); ++i) {
     for (int d = 0; d < D; ++d) {
-      now_.columns[d][i] = start.position[i][d];
+      now_.columns[d][i] = start.position[i][d] + cell().corner()[d];
       now_.columns[D + d][i] = start.velocity[i][d];
     }
     now_.columns[2 * D][i] = start.energy[i];
@@ -48,17 +53,22 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
 template <int D>
 spam::Particles<D> FluidTrajectory<D>::particles_at(const space::Columns& at,
                                                     const pairs::ImageTable<D>& images) const {
-  return {near_.list(), images, near_.numbers(), pointers<D>(at, 0), pointers<D>(at, D), at[2 * D], strain_rate_};
+  return {near_.list(),       images,    near_.numbers(), pointers<D>(at, 0),
+          pointers<D>(at, D), at[2 * D], strain_rate_,    walls_.particles()};
 }
 
 template <int D>
 void FluidTrajectory<D>::renew_list(double dt) {
+  walls_.place(near_, now_.columns);
   near_.sort(now_.columns, next_.columns, fluid_.columns_to_sort());
+  walls_.settle(near_, now_.columns);
   Speeds speeds;
   speeds.largest = std::sqrt(kinetic_.largest_square);
   speeds.typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles())));
   speeds.acceleration = largest_acceleration();
-  near_.make_list(now_.columns, speeds, dt, team_);
+  near_.make_list(now_.columns, speeds, dt, team_, walls_.longest_lifetime(speeds.largest));
+  walls_.follow(now_.columns);
+  fluid_.hold_walls(walls_.particles());
 }
 
 template <int D>
@@ -74,12 +84,18 @@ double FluidTrajectory<D>::largest_acceleration() const {
 }
 
 template <int D>
-void FluidTrajectory<D>::prepare(const Phase<numbers>& at, double age) {
+void FluidTrajectory<D>::prepare(Phase<numbers>& at, double age) {
+  walls_.follow(at.columns);
   const auto images = near_.images(age);
   fluid_.evaluate(particles_at(at.columns, images), team_);
   kinetic_ =
       measure::kinetic_sums<D>(pointers<D>(at.columns, D), pointers<D>(fluid_.acceleration(), 0), near_.slots(), team_);
   internal_energy_ = measure::column_sum(at.columns[2 * D], near_.slots());
+  if (walls_.any()) {
+    kinetic_.momentum_flux -= walls_.momentum_flux();
+    energy_rate_ = kinetic_.force_power + measure::column_sum(fluid_.energy_rate()[0], near_.slots());
+    return;
+  }
   energy_rate_ = 0.0;
   if constexpr (D > 1) {
     energy_rate_ = -strain_rate_ * (kinetic_.momentum_flux(0, 1) + fluid_.virial_xy());
@@ -130,6 +146,42 @@ bool FluidTrajectory<D>::try_step(double dt) {
 }
 
 template <int D>
+void FluidTrajectory<D>::reflect_at_walls(double dt) {
+  if (!walls_.any()) return;
+  std::int64_t crossed = 0;
+  for (std::size_t slot = 0; slot < near_.slots(); ++slot) {
+    const std::int32_t number = near_.numbers()[slot];
+    if (number == pairs::nobody || near_.is_guest(slot)) continue;
+    space::Vector<D> position;
+    space::Vector<D> velocity;
+    for (int d = 0; d < D; ++d) {
+      position[d] = now_.columns[d][slot];
+      velocity[d] = now_.columns[D + d][slot];
+    }
+    const space::Crossing crossing = cell().reflect(position, velocity);
+    if (crossing == space::Crossing::none) continue;
+    if (crossing == space::Crossing::lost) {
+      double square = 0.0;
+      for (const double v : velocity) square += v * v;
+      throw RunFailed(
+          fmt::format("at time {:.6g} particle {} was thrown through a wall and out of the cell (speed {:.3g}); a "
+                      "smaller run.step or a smoother start may help",
+                      time_, number, std::sqrt(square)));
+    }
+    ++crossed;
+    for (int d = 0; d < D; ++d) {
+      now_.columns[d][slot] = position[d];
+      now_.columns[D + d][slot] = velocity[d];
+    }
+  }
+  if (crossed == 0) return;
+  // Its path is no longer the straight line that the list was made for.
+  reflections_ += crossed;
+  renew_list(dt);
+  prepare(now_, near_.age());
+}
+
+template <int D>
 std::string FluidTrajectory<D>::why_stuck(bool near, double piece) const {
   const std::string when = fmt::format("at time {:.6g}, even in steps of {:.3g}", time_, piece);
   if (!near) {
@@ -150,7 +202,7 @@ void FluidTrajectory<D>::refuse_impossible_particles() const {
   const double* const temperature = fluid_.temperature()[0];
   const double densest = spam::densest(fluid_.fluid().state);
   for (std::size_t slot = 0; slot < numbers_of_slots.size(); ++slot) {
-    if (numbers_of_slots[slot] == pairs::nobody) continue;
+    if (numbers_of_slots[slot] == pairs::nobody || near_.is_guest(slot)) continue;
     if (fluid_.density()[0][slot] >= densest) {
       throw RunFailed(fmt::format(
           "at time {:.6g} the density of particle {} is {:.3g}, but from {:.3g} on its equation of state describes no "
@@ -172,11 +224,42 @@ void FluidTrajectory<D>::advance(double dt) {
       dt, watch_, halvings_, report_,
       [&](double piece) -> std::optional<double> {
         near = list_lasts(piece);
-        if (near && try_step(piece)) return last_error_;
-        return std::nullopt;
+        if (!near || !try_step(piece)) return std::nullopt;
+        reflect_at_walls(piece);
+        return last_error_;
       },
       [&](double piece) { throw RunFailed(why_stuck(near, piece)); });
   refuse_impossible_particles();
+}
+
+template <int D>
+std::array<spam::WallExchange, 2 * D> FluidTrajectory<D>::wall_exchange() const {
+  const auto images = near_.images(near_.age());
+  return fluid_.wall_exchange(particles_at(now_.columns, images), team_);
+}
+
+template <int D>
+std::vector<double> FluidTrajectory<D>::positions() const {
+  std::vector<double> values = near_.wrapped_positions(now_.columns);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] -= cell().corner()[k % D];
+  return values;
+}
+
+template <int D>
+FieldPlaces<D> FluidTrajectory<D>::field_places() const {
+  FieldPlaces<D> places{near_.box(), cell().corner(), near_.wrapped_positions(now_.columns), velocities(), energies()};
+  std::visit(
+      [&](const auto& state) {
+        for (const spam::WallParticle& at : walls_.particles()) {
+          for (int d = 0; d < D; ++d) {
+            places.position.push_back(now_.columns[d][at.slot]);
+            places.velocity.push_back(now_.columns[D + d][at.slot]);
+          }
+          places.energy.push_back(state.energy(fluid_.density()[0][at.slot], at.temperature));
+        }
+      },
+      fluid_.fluid().state);
+  return places;
 }
 
 template <int D>
@@ -232,6 +315,7 @@ void FluidTrajectory<D>::save(ArchiveWriter& archive) const {
   archive.put(internal_energy_);
   archive.put(chi_);
   archive.put(energy_rate_);
+  archive.put(reflections_);
   archive.put(report_);
 }
 
@@ -248,6 +332,7 @@ void FluidTrajectory<D>::load(ArchiveReader& archive) {
   internal_energy_ = archive.get<double>();
   chi_ = archive.get<double>();
   energy_rate_ = archive.get<double>();
+  reflections_ = archive.get<std::int64_t>();
   report_ = archive.get<WatchReport>();
 }
 

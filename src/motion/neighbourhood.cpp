@@ -24,11 +24,12 @@ constexpr double acceleration_margin = 1.5;
 }  // namespace
 
 template <int D>
-Neighbourhood<D>::Neighbourhood(const space::Box<D>& box, std::size_t particles, double range)
+Neighbourhood<D>::Neighbourhood(const space::Box<D>& box, std::size_t particles, double range, std::size_t most_guests)
     : range_(range),
       particles_(particles),
+      most_guests_(most_guests),
       box_(box),
-      list_(static_cast<std::int64_t>(particles), box.lengths()),
+      list_(static_cast<std::int64_t>(particles), box.lengths(), static_cast<std::int64_t>(most_guests)),
       number_(particles) {
   for (std::size_t i = 0; i < particles; ++i) number_[i] = static_cast<std::int32_t>(i);
 }
@@ -38,6 +39,24 @@ space::Box<D> Neighbourhood<D>::box() const {
   space::Box<D> present = box_;
   present.advance(age_);
   return present;
+}
+
+template <int D>
+std::size_t Neighbourhood<D>::admit() {
+  if (guests_ == most_guests_) throw RunFailed("there are more particles near walls than were expected");
+  while (vacant_from_ < number_.size() && number_[vacant_from_] != pairs::nobody) ++vacant_from_;
+  if (vacant_from_ == number_.size()) number_.push_back(pairs::nobody);
+  number_[vacant_from_] = static_cast<std::int32_t>(particles_ + guests_);
+  ++guests_;
+  return vacant_from_++;
+}
+
+template <int D>
+void Neighbourhood<D>::dismiss_guests() {
+  for (std::size_t slot = 0; slot < number_.size(); ++slot)
+    if (is_guest(slot)) number_[slot] = pairs::nobody;
+  guests_ = 0;
+  vacant_from_ = 0;
 }
 
 template <int D>
@@ -77,6 +96,7 @@ void Neighbourhood<D>::sort(space::Columns& state, space::Columns& scratch, std:
       take(scratch[0], (*columns)[c], zero);
     }
   }
+  vacant_from_ = 0;
   number_before_.swap(number_);
   number_.resize(order.size());
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
@@ -86,15 +106,17 @@ void Neighbourhood<D>::sort(space::Columns& state, space::Columns& scratch, std:
 }
 
 template <int D>
-void Neighbourhood<D>::make_list(const space::Columns& state, const Speeds& speeds, double dt, const Team& team) {
+void Neighbourhood<D>::make_list(const space::Columns& state, const Speeds& speeds, double dt, const Team& team,
+                                 double longest) {
   acceleration_ = speeds.acceleration;
   pairs::ListReach reach;
   reach.range = range_;
   reach.slack = slack_fraction * range_;
   reach.largest_speed = speeds.largest;
   reach.typical_speed = speeds.typical;
-  const double bound = std::min(std::sqrt(2.0 * reach.slack / (acceleration_margin * acceleration_ + 1e-300)),
-                                list_.longest_lifetime(range_, reach.slack, speeds.largest, box_.strain_rate()));
+  const double bound =
+      std::min({std::sqrt(2.0 * reach.slack / (acceleration_margin * acceleration_ + 1e-300)),
+                list_.longest_lifetime(range_, reach.slack, speeds.largest, box_.strain_rate()), longest});
   // Whole steps, so that no part of the lifetime is paid for and not used; at least one, where the bound allows it.
   reach.lifetime = std::min(std::max(dt, typical_path * range_ / speeds.typical), bound);
   if (dt > 0.0 && reach.lifetime > dt) {
@@ -109,7 +131,7 @@ void Neighbourhood<D>::copy_by_particle(const space::Columns& columns, int first
                                         int count) const {
   const auto stride = static_cast<std::size_t>(count);
   for (std::size_t slot = 0; slot < number_.size(); ++slot) {
-    if (number_[slot] == pairs::nobody) continue;
+    if (number_[slot] == pairs::nobody || is_guest(slot)) continue;
     double* const of_particle = values.data() + static_cast<std::size_t>(number_[slot]) * stride;
     for (int c = 0; c < count; ++c) of_particle[c] = columns[first + c][slot];
   }
@@ -140,11 +162,15 @@ template <int D>
 void Neighbourhood<D>::load(ArchiveReader& archive) {
   archive.get_sequence(number_);
   std::size_t there = 0;
+  guests_ = 0;
+  vacant_from_ = 0;
   for (const std::int32_t number : number_) {
-    if (number >= static_cast<std::int32_t>(particles_)) there = particles_ + 1;
-    if (number != pairs::nobody) ++there;
+    if (number >= static_cast<std::int32_t>(particles_))
+      ++guests_;
+    else if (number != pairs::nobody)
+      ++there;
   }
-  if (number_.size() > capacity() || there != particles_) {
+  if (number_.size() > capacity() || there != particles_ || guests_ > most_guests_) {
     throw RunFailed("a saved state does not hold the particles of the input");
   }
   box_ = space::Box<D>(box_.lengths(), box_.strain_rate(), archive.get<double>());

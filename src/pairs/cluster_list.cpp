@@ -37,9 +37,10 @@ template ImageTable<2> image_table(const space::Box<2>&, double);
 template ImageTable<3> image_table(const space::Box<3>&, double);
 
 template <int D>
-ClusterList<D>::ClusterList(std::int64_t particles, const space::Vector<D>& lengths)
-    : particles_(particles), lengths_(lengths) {
-  if (particles < 1 || particles > (std::int64_t{1} << 27)) throw BadInput("a cluster list takes 1 to 2^27 particles");
+ClusterList<D>::ClusterList(std::int64_t particles, const space::Vector<D>& lengths, std::int64_t more)
+    : lengths_(lengths) {
+  const std::int64_t most = particles + more;
+  if (particles < 1 || most > (std::int64_t{1} << 27)) throw BadInput("a cluster list takes 1 to 2^27 particles");
   const double edge = cluster_edge<D>(particles, lengths);
   std::size_t pencils = 1;
   pencils_[0] = 1;
@@ -47,12 +48,12 @@ ClusterList<D>::ClusterList(std::int64_t particles, const space::Vector<D>& leng
     pencils_[d] = std::max(1, static_cast<int>(lengths[d] / edge));
     pencils *= static_cast<std::size_t>(pencils_[d]);
   }
-  capacity_ = (static_cast<std::size_t>(particles) / lane_count + pencils + 1) * lane_count;
+  capacity_ = (static_cast<std::size_t>(most) / lane_count + pencils + 1) * lane_count;
   pencil_begin_.assign(pencils + 1, 0);
   pencil_extent_.resize(pencils);
   const int cells_per_pencil = std::max(1, static_cast<int>(2.0 * lengths[0] / edge));
   cell_count_.resize(pencils * static_cast<std::size_t>(cells_per_pencil) + 1);
-  sorted_.resize(static_cast<std::size_t>(particles));
+  sorted_.resize(static_cast<std::size_t>(most));
   order_.reserve(capacity_);
   const std::size_t most_clusters = capacity_ / lane_count;
   members_.reserve(most_clusters);

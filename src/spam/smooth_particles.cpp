@@ -11,6 +11,7 @@
 #include "lucy/errors.hpp"
 #include "lucy/spam/density.hpp"
 #include "spam/pass_columns.hpp"
+#include "spam/wall_particles.hpp"
 
 namespace lucy::spam {
 
@@ -54,12 +55,15 @@ SmoothParticles<D>::SmoothParticles(const Fluid<D>& fluid, std::size_t slots)
 template <int D>
 void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& team) {
   densities<D>(fluid_.weight, particles.list, particles.images, particles.position, density_[0], slopes_, team);
+  give_to_images(density_, particles.walls);
   apply_equation_of_state(particles, team);
   if (!fluid_.transport.none()) {
     find_gradients(particles, team);
     apply_transport(particles, team);
+    give_to_images(stress_, particles.walls);
   }
   find_rates(particles, team);
+  hold_walls(particles.walls);
 }
 
 template <int D>
@@ -79,6 +83,7 @@ void SmoothParticles<D>::apply_equation_of_state(const Particles<D>& particles, 
         });
       },
       fluid_.state);
+  set_states_at_walls(fluid_.state, density_[0], pressure_[0], temperature_[0], particles.walls);
   const bool plain = fluid_.transport.none();
   const bool geometric = fluid_.mean == DensityMean::geometric;
   for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
@@ -116,6 +121,12 @@ void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Te
       pairs::store(stress_[triangle<D> + a] + first, -fluid_.transport.conductivity * along * per_square);
     }
   });
+}
+
+template <int D>
+void SmoothParticles<D>::hold_walls(std::span<const WallParticle> walls) {
+  set_zero_at_walls(acceleration_, walls);
+  set_zero_at_walls(energy_rate_, walls);
 }
 
 template <int D>

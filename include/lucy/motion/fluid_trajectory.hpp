@@ -19,6 +19,10 @@
 //                             no momentum is touched. Where e is proportional to T, in the ideal gas, this makes no
 //                             temperature gradient; a van der Waals fluid (e = T - a rho) cools less where it is dense,
 //                             and for the dense fluid it depends on where its e is zero.
+// Between walls (space/walls.hpp) there is no shear and no thermostat: dU/dt is the sum over the particles of their
+// power, p.F + e', by which walls and gravity give what they give. A particle that a step carries across a wall is
+// reflected. Positions are those in the cell, from its lowest corner.
+//
 // The integral of dU/dt is carried along, so that the integrator's own error can be told from it and watched.
 #pragma once
 
@@ -33,6 +37,7 @@
 #include "lucy/motion/neighbourhood.hpp"
 #include "lucy/motion/runge_kutta.hpp"
 #include "lucy/motion/subdivision.hpp"
+#include "lucy/motion/wall_particles.hpp"
 #include "lucy/spam/smooth_particles.hpp"
 #include "lucy/team.hpp"
 
@@ -45,6 +50,17 @@ struct FluidStart {
   std::vector<space::Vector<D>> position;
   std::vector<space::Vector<D>> velocity;  ///< relative to the mean flow
   std::vector<double> energy;              ///< internal, per mass
+  space::Walls<D> walls{};                 ///< none: periodic
+};
+
+/// Places that take part in a fluid's fields, x0 y0 x1 y1 ... in the box around its cell.
+template <int D>
+struct FieldPlaces {
+  space::Box<D> box;
+  space::Vector<D> corner{};     ///< of the cell, in the box
+  std::vector<double> position;  ///< of the particles, by number, then of those that stand for walls
+  std::vector<double> velocity;
+  std::vector<double> energy;  ///< internal, per mass; at walls that of the wall's temperature
 };
 
 enum class Cooling { none, isoenergetic };
@@ -60,8 +76,9 @@ class FluidTrajectory {
   enum Number : std::size_t { energy_input = 0 };
   static constexpr std::size_t numbers = 1;
 
-  /// Throws BadInput for a fluid that validate() refuses, and for isoenergetic cooling of one without internal energy;
-  /// RunFailed when the box is too small for the range, or for a start that advance() would refuse.
+  /// Throws BadInput for a fluid that validate() refuses, for isoenergetic cooling of one without internal energy, for
+  /// shear or cooling between walls, and for a cell between walls that is too narrow; RunFailed when the box is too
+  /// small for the range, or for a start that advance() would refuse.
   FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStart<D>& start, double strain_rate, Cooling cooling,
                   const Watch& watch, const Team& team);
 
@@ -74,7 +91,9 @@ class FluidTrajectory {
 
   std::int64_t particles() const { return static_cast<std::int64_t>(near_.particles()); }
   double time() const { return time_; }
-  double volume() const { return near_.box().volume(); }
+  double volume() const { return space::Box<D>(cell().lengths()).volume(); }
+  const space::Cell<D>& cell() const { return walls_.cell(); }
+  /// Periodic fluids: the box. Between walls there is room behind them.
   space::Box<D> box() const { return near_.box(); }
   const WatchReport& report() const { return report_; }
 
@@ -91,8 +110,15 @@ class FluidTrajectory {
   /// See SmoothParticles::entropy_production; by particle number, two each.
   std::vector<double> entropy_production() const;
 
-  /// By particle number; vectors as x0 y0 x1 y1 ...; positions wrapped into the box.
-  std::vector<double> positions() const { return near_.wrapped_positions(now_.columns); }
+  /// What walls give now, by wall number.
+  std::array<spam::WallExchange, 2 * D> wall_exchange() const;
+  /// How often a particle crossed a wall and was reflected, since the start.
+  std::int64_t reflections() const { return reflections_; }
+  /// The particles and those that stand for walls.
+  FieldPlaces<D> field_places() const;
+
+  /// By particle number; vectors as x0 y0 x1 y1 ...; positions wrapped into the cell.
+  std::vector<double> positions() const;
   std::vector<double> velocities() const { return by_particle(now_.columns, D, D); }  ///< peculiar
   std::vector<double> energies() const { return by_particle(now_.columns, 2 * D, 1); }
   std::vector<double> densities() const { return by_particle(fluid_.density(), 0, 1); }
@@ -111,7 +137,7 @@ class FluidTrajectory {
   void load(ArchiveReader& archive);
 
   // What runge_kutta_4 asks of its system.
-  void prepare(const Phase<numbers>& at, double age);
+  void prepare(Phase<numbers>& at, double age);
   void rate(const space::Columns& at, std::size_t begin, std::size_t count, ChunkRates<columns>& k) const;
   std::array<double, numbers> number_rates() const { return {energy_rate_}; }
 
@@ -121,6 +147,7 @@ class FluidTrajectory {
   double largest_acceleration() const;
   bool list_lasts(double dt);
   bool try_step(double dt);
+  void reflect_at_walls(double dt);
   void refuse_impossible_particles() const;
   std::string why_stuck(bool near, double piece) const;
 
@@ -128,6 +155,7 @@ class FluidTrajectory {
   Cooling cooling_;
   Watch watch_;
   Team team_;
+  WallParticles<D> walls_;
   Neighbourhood<D> near_;
   spam::SmoothParticles<D> fluid_;
   Phase<numbers> now_;
@@ -142,6 +170,7 @@ class FluidTrajectory {
   double internal_energy_ = 0.0;
   double chi_ = 0.0;
   double energy_rate_ = 0.0;
+  std::int64_t reflections_ = 0;
   WatchReport report_;
 };
 

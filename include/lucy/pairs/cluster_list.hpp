@@ -120,8 +120,8 @@ class ClusterList {
     std::vector<RowEntry> candidates;  // scratch of build()
   };
 
-  /// For `particles` particles in a box of the given edge lengths.
-  ClusterList(std::int64_t particles, const space::Vector<D>& lengths);
+  /// For `particles` particles in a box of the given edge lengths, and at times up to `more` besides.
+  ClusterList(std::int64_t particles, const space::Vector<D>& lengths, std::int64_t more = 0);
 
   /// Slots to allocate: enough for every arrangement.
   std::size_t capacity() const { return capacity_; }
@@ -161,7 +161,6 @@ class ClusterList {
                   const std::array<const double*, D>& velocity, const space::Box<D>& box, const ListReach& reach,
                   const ImageTable<D>& images) const;
 
-  std::int64_t particles_;
   space::Vector<D> lengths_;
   std::array<int, D> pencils_{};  // number of pencils in y, z; entry 0 is 1
   std::size_t capacity_ = 0;

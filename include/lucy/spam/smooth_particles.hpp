@@ -17,9 +17,24 @@
 #include "lucy/pairs/pair_force.hpp"
 #include "lucy/space/columns.hpp"
 #include "lucy/spam/fluid.hpp"
+#include "lucy/spam/wall_exchange.hpp"
 #include "lucy/team.hpp"
 
 namespace lucy::spam {
+
+/// A slot that stands for a wall: its velocity is in the column of velocities, its temperature here. It acts on others
+/// and is acted on by nobody. An image has density, pressure tensor and heat flux of its parent, unmirrored; a boundary
+/// particle its own.
+struct WallParticle {
+  static constexpr std::uint32_t no_parent = 0xffffffffU;
+
+  std::uint32_t slot = 0;
+  std::uint32_t parent = no_parent;  ///< the slot whose mirror image this is
+  int wall = 0;                      ///< its number (space/walls.hpp)
+  double temperature = 0.0;
+
+  bool has_parent() const { return parent != no_parent; }
+};
 
 /// Where the particles are, slots as a list arranged them. Velocities are peculiar: relative to u_x = strain_rate y.
 template <int D>
@@ -31,6 +46,7 @@ struct Particles {
   std::array<const double*, D> velocity;
   const double* energy;  ///< internal, per mass
   double strain_rate = 0.0;
+  std::span<const WallParticle> walls{};
 };
 
 /// The working columns of the passes, and what they leave there.
@@ -55,6 +71,8 @@ class SmoothParticles {
   const space::Columns& gradients() const { return gradients_; }
   /// sum_{i<j} f_x,ij y_ij: V times the xy component of the pairs' share of the pressure tensor.
   double virial_xy() const { return virial_xy_; }
+  /// What the walls give, see wall_exchange.hpp; of the state last evaluated, by wall number.
+  std::array<WallExchange, 2 * D> wall_exchange(const Particles<D>& particles, const Team& team) const;
   /// V times the average over the volume of the Newtonian stress -eta (dv_x/dy + dv_y/dx): sum_i m (P_xy/rho)_i.
   double viscous_stress_xy(std::size_t slots) const;
 
@@ -62,6 +80,8 @@ class SmoothParticles {
   std::array<space::Columns*, 6> columns_to_sort() {
     return {&density_, &temperature_, &pressure_, &gradients_, &acceleration_, &energy_rate_};
   }
+  /// Sets the rates of what stands for walls to zero.
+  void hold_walls(std::span<const WallParticle> walls);
   /// What those hold, and the sums.
   void save(ArchiveWriter& archive, std::size_t slots) const;
   void load(ArchiveReader& archive, std::size_t slots);
