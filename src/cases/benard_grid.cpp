@@ -14,8 +14,7 @@ namespace lucy::cases {
 
 namespace {
 
-constexpr double usual_amplitude = 0.085;      // over the difference of temperatures
-constexpr double small_amplitude = 0.085e-5;   // the square of which is below rounding
+constexpr double growth_amplitude = 1e-5;      // over the usual one: its square is below rounding
 constexpr double share_of_longest_step = 0.7;  // densities and temperatures will differ from those at rest
 constexpr double steady_duration = 40.0;       // in tau, as the next two
 constexpr double growth_duration = 3.0;
@@ -24,45 +23,15 @@ constexpr double most_work = 4e6;  // nodes times steps of one interval, a fifth
 constexpr std::size_t steady_samples = 3;
 constexpr double at_rest = 1e-10;  // kinetic energy in units of (nu/L)^2
 
-struct FluidFactors {
-  double gravity;    // g L/(T_hot - T_cold) of a uniform fluid at rest
-  double expansion;  // alpha C_V
-};
-
-FluidFactors factors_of(spam::EquationOfStateName fluid) {
-  switch (fluid) {
-    case spam::EquationOfStateName::van_der_waals:
-      return {2.0, 2.0 / 3.0};
-    case spam::EquationOfStateName::dense_fluid:
-      return {3.75, 1.26 / 3.75};
-    case spam::EquationOfStateName::isentropic:
-    case spam::EquationOfStateName::ideal_gas:
-      break;
-  }
-  return {1.0, 1.0};
-}
-
-double usual_width(const BenardGridPoint& point) {
-  return point.sides == grid::Sides::periodic ? 2.0 * point.height : point.height;
-}
-
-double cells_along_x(const BenardGridPoint& point) {
-  return point.width.value_or(usual_width(point)) / point.height * point.cells;
-}
+double cells_along_x(const BenardGridPoint& point) { return width_of(point) / point.height * point.cells; }
 
 /// All but the step, which needs all of it.
 BenardGridPoint without_step(const BenardGridPoint& point) {
   BenardGridPoint all = point;
-  const double difference = point.hot - point.cold;
-  const FluidFactors factors = factors_of(point.equation_of_state);
-  all.width = point.width.value_or(usual_width(point));
-  all.gravity = point.gravity.value_or(factors.gravity * difference / point.height);
-  const double drive = *all.gravity * factors.expansion * std::pow(point.height, 3) * difference;
-  if (!all.rayleigh) all.rayleigh = drive / (*point.viscosity * *point.conductivity);
-  if (!all.viscosity) all.viscosity = std::sqrt(drive / *point.rayleigh);
-  if (!all.conductivity) all.conductivity = all.viscosity;
+  set_unset(all);
   const bool growth = point.find == BenardGoal::growth_rate;
-  all.roll_velocity = point.roll_velocity.value_or((growth ? small_amplitude : usual_amplitude) * difference);
+  all.roll_velocity =
+      point.roll_velocity.value_or((growth ? growth_amplitude : 1.0) * usual_roll_velocity * (point.hot - point.cold));
   all.duration = point.duration.value_or((growth ? growth_duration : steady_duration) * diffusion_time(all));
   return all;
 }
@@ -86,10 +55,6 @@ grid::Settings settings_of(const BenardGridPoint& all) {
 
 }  // namespace
 
-double diffusion_time(const BenardGridPoint& point) {
-  return point.height * point.height / (point.viscosity ? *point.viscosity : *without_step(point).viscosity);
-}
-
 BenardGridPoint resolved(const BenardGridPoint& point) {
   BenardGridPoint all = without_step(point);
   if (!all.step) all.step = share_of_longest_step * grid::longest_step(settings_of(all));
@@ -99,33 +64,14 @@ BenardGridPoint resolved(const BenardGridPoint& point) {
 grid::Settings flow_settings(const BenardGridPoint& point) { return settings_of(without_step(point)); }
 
 void validate(const BenardGridPoint& point) {
-  refuse_unless_above_zero("cell.height", point.height);
-  refuse_unless_above_zero("cell.cold", point.cold);
-  if (!(point.hot > point.cold) || !std::isfinite(point.hot))
-    refuse(fmt::format("cell.hot = {} must be above cell.cold = {}", point.hot, point.cold));
-  if (point.width) refuse_unless_above_zero("cell.width", *point.width);
-  if (point.gravity) refuse_unless_above_zero("cell.gravity", *point.gravity);
-  if (point.rayleigh) {
-    refuse_unless_above_zero("fluid.rayleigh", *point.rayleigh);
-    if (point.viscosity || point.conductivity)
-      refuse(
-          fmt::format("fluid.rayleigh = {} leaves nothing to fluid.viscosity and fluid.conductivity: give the one "
-                      "or the other two",
-                      *point.rayleigh));
-  } else if (!point.viscosity || !point.conductivity) {
-    refuse("fluid.rayleigh is missing: give it, or both fluid.viscosity and fluid.conductivity");
-  } else {
-    refuse_unless_above_zero("fluid.viscosity", *point.viscosity);
-    refuse_unless_above_zero("fluid.conductivity", *point.conductivity);
-  }
+  validate(static_cast<const Convection&>(point), true);
   if (point.cells < 4) refuse(fmt::format("grid.cells = {} must be at least 4", point.cells));
   const double along_x = cells_along_x(point);
   if (std::abs(along_x - std::round(along_x)) > 1e-9 * along_x || along_x < 4.0 || along_x > 1e4)
     refuse(
         fmt::format("cell.width = {} at cell.height = {} and grid.cells = {} makes {} cells along x; a whole number "
                     "from 4 to 10000 is accepted",
-                    point.width.value_or(usual_width(point)), point.height, point.cells, along_x));
-  if (point.roll_velocity) refuse_unless_above_zero("start.roll_velocity", *point.roll_velocity);
+                    width_of(point), point.height, point.cells, along_x));
   if (point.duration) refuse_unless_above_zero("run.duration", *point.duration);
   refuse_unless_above_zero("run.tolerance", point.tolerance);
   const double longest = grid::longest_step(flow_settings(point));

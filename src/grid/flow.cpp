@@ -103,22 +103,24 @@ double Flow::wall_temperature(int row) const {
   return settings_.hot + (settings_.cold - settings_.hot) * row / settings_.cells_y;
 }
 
-double Flow::roll(int column, int row) const {
+std::array<double, 2> roll_pattern(Sides sides, double x, double y) {
   using std::numbers::pi;
-  const double x = 2.0 * pi * column_x(column) / settings_.width;
-  const double along = settings_.sides == Sides::periodic ? std::cos(x) : -std::sin(x);
-  return along * std::cos(pi * row_y(row) / settings_.height);
+  const double up = std::sin(2.0 * pi * y);
+  const double across = std::cos(pi * y);
+  if (sides == Sides::periodic) return {std::sin(2.0 * pi * x) * up, std::cos(2.0 * pi * x) * across};
+  return {std::cos(pi * x) * up, -std::sin(2.0 * pi * x) * across};
+}
+
+std::array<double, 2> Flow::roll(int column, int row) const {
+  return roll_pattern(settings_.sides, column_x(column) / settings_.width, row_y(row) / settings_.height);
 }
 
 void Flow::set_rolls(double amplitude) {
-  using std::numbers::pi;
   for (int row = 1; row < settings_.cells_y; ++row) {
-    const double up = std::sin(2.0 * pi * row_y(row) / settings_.height);
     for (int column = first_inner_; column <= last_inner_; ++column) {
-      const double x = column_x(column) / settings_.width;
-      const double along = settings_.sides == Sides::periodic ? std::sin(2.0 * pi * x) : std::cos(pi * x);
-      now_.velocity_x[at(column, row)] = amplitude * along * up;
-      now_.velocity_y[at(column, row)] = amplitude * roll(column, row);
+      const auto velocity = roll(column, row);
+      now_.velocity_x[at(column, row)] = amplitude * velocity[0];
+      now_.velocity_y[at(column, row)] = amplitude * velocity[1];
     }
   }
 }
@@ -410,7 +412,7 @@ double Flow::roll_amplitude() const {
   double squares = 0.0;
   for (int row = 1; row < settings_.cells_y; ++row)
     for (int i = first_inner_; i <= last_inner_; ++i) {
-      const double pattern = roll(i, row);
+      const double pattern = roll(i, row)[1];
       sum += pattern * now_.velocity_y[at(i, row)];
       squares += pattern * pattern;
     }

@@ -27,6 +27,7 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
       now_{space::Columns(columns, near_.capacity()), {}},
       next_{space::Columns(columns, near_.capacity()), {}},
       sum_(columns, near_.capacity()) {
+  refuse_start_outside(start);
   if (walls_.any() && (strain_rate != 0.0 || cooling != Cooling::none))
     throw BadInput("a fluid between walls is neither sheared by sliding images nor cooled by a thermostat");
   for (std::size_t i = 0; i < start.position.size(); ++i) {
@@ -41,6 +42,7 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
   renew_list(0.0);
   prepare(now_, near_.age());
   start_energy_ = energy();
+  power_of_walls_ = find_power_of_walls();
   if (cooling_ == Cooling::isoenergetic && !(internal_energy_ > 0.0)) {
     throw BadInput(
         fmt::format("isoenergetic cooling takes heat in proportion to the internal energy, and so needs a fluid that "
@@ -48,6 +50,17 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
                     internal_energy_));
   }
   refuse_impossible_particles();
+}
+
+template <int D>
+void FluidTrajectory<D>::refuse_start_outside(const FluidStart<D>& start) const {
+  for (int d = 0; d < D; ++d) {
+    if (!start.walls.across[d]) continue;
+    for (std::size_t i = 0; i < start.position.size(); ++i)
+      if (!(start.position[i][d] >= 0.0 && start.position[i][d] <= start.lengths[d]))
+        throw BadInput(fmt::format("particle {} starts at {:.6g}, outside of the walls at 0 and {:.6g}", i,
+                                   start.position[i][d], start.lengths[d]));
+  }
 }
 
 template <int D>
@@ -63,12 +76,12 @@ void FluidTrajectory<D>::renew_list(double dt) {
   near_.sort(now_.columns, next_.columns, fluid_.columns_to_sort());
   walls_.settle(near_, now_.columns);
   Speeds speeds;
-  speeds.largest = std::sqrt(kinetic_.largest_square);
+  speeds.largest = std::max(std::sqrt(kinetic_.largest_square), walls_.largest_wall_speed());
   speeds.typical = std::sqrt(kinetic_.momentum_flux.trace() / (D * static_cast<double>(particles())));
   speeds.acceleration = largest_acceleration();
   near_.make_list(now_.columns, speeds, dt, team_, walls_.longest_lifetime(speeds.largest));
   walls_.follow(now_.columns);
-  fluid_.hold_walls(walls_.particles());
+  fluid_.renew_walls(walls_.particles());
 }
 
 template <int D>
@@ -141,6 +154,7 @@ bool FluidTrajectory<D>::try_step(double dt) {
   std::swap(now_, next_);
   time_ += dt;
   near_.advance(dt);
+  count_what_walls_gave(dt);
   report_.worst_energy_error = std::max(report_.worst_energy_error, last_error_);
   return true;
 }
@@ -170,6 +184,8 @@ void FluidTrajectory<D>::reflect_at_walls(double dt) {
     }
     ++crossed;
     for (int d = 0; d < D; ++d) {
+      const double moved = position[d] - now_.columns[d][slot];
+      if (moved != 0.0) given_by_walls_[space::wall_number(d, moved < 0.0)].work -= fluid_.fluid().gravity[d] * moved;
       now_.columns[d][slot] = position[d];
       now_.columns[D + d][slot] = velocity[d];
     }
@@ -179,6 +195,7 @@ void FluidTrajectory<D>::reflect_at_walls(double dt) {
   reflections_ += crossed;
   renew_list(dt);
   prepare(now_, near_.age());
+  power_of_walls_ = find_power_of_walls();
 }
 
 template <int D>
@@ -233,9 +250,20 @@ void FluidTrajectory<D>::advance(double dt) {
 }
 
 template <int D>
-std::array<spam::WallExchange, 2 * D> FluidTrajectory<D>::wall_exchange() const {
+std::array<spam::WallExchange, 2 * D> FluidTrajectory<D>::find_power_of_walls() const {
+  if (!walls_.any()) return {};
   const auto images = near_.images(near_.age());
   return fluid_.wall_exchange(particles_at(now_.columns, images), team_);
+}
+
+template <int D>
+void FluidTrajectory<D>::count_what_walls_gave(double dt) {
+  const auto before = power_of_walls_;
+  power_of_walls_ = find_power_of_walls();
+  for (std::size_t wall = 0; wall < before.size(); ++wall) {
+    given_by_walls_[wall].conduction += 0.5 * dt * (before[wall].conduction + power_of_walls_[wall].conduction);
+    given_by_walls_[wall].work += 0.5 * dt * (before[wall].work + power_of_walls_[wall].work);
+  }
 }
 
 template <int D>
@@ -315,6 +343,8 @@ void FluidTrajectory<D>::save(ArchiveWriter& archive) const {
   archive.put(internal_energy_);
   archive.put(chi_);
   archive.put(energy_rate_);
+  archive.put(power_of_walls_);
+  archive.put(given_by_walls_);
   archive.put(reflections_);
   archive.put(report_);
 }
@@ -332,6 +362,8 @@ void FluidTrajectory<D>::load(ArchiveReader& archive) {
   internal_energy_ = archive.get<double>();
   chi_ = archive.get<double>();
   energy_rate_ = archive.get<double>();
+  power_of_walls_ = archive.get<std::array<spam::WallExchange, 2 * D>>();
+  given_by_walls_ = archive.get<std::array<spam::WallExchange, 2 * D>>();
   reflections_ = archive.get<std::int64_t>();
   report_ = archive.get<WatchReport>();
 }

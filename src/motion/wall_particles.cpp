@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,11 +14,12 @@ namespace lucy::motion {
 
 namespace {
 
-// Particles this far from a wall, in units of the range, have images while a list lasts: nearer than the range is what
-// counts, the rest is their path.
-constexpr double reach_in_ranges = 1.25;
-// How much of that path is left to the straight line of the list, whose slack is the rest.
+// How far a particle may move along its straight line while the images of a list last, in units of the range.
 constexpr double path_in_ranges = 0.2;
+// Particles up to this far from a wall have images: nearer than the range is what counts, or than the range and a path
+// where another particle is behind the wall for a moment; then comes their own path, and the list's slack.
+constexpr double reach_in_ranges = 1.45;
+static_assert(WallParticles<2>::shortest_in_ranges == 2.0 * reach_in_ranges);
 
 }  // namespace
 
@@ -28,13 +30,20 @@ WallParticles<D>::WallParticles(const space::Cell<D>& cell, std::size_t particle
   double volume = 1.0;
   for (int d = 0; d < D; ++d) {
     volume *= cell.lengths()[d];
-    if (cell.walls().across[d] && !(cell.lengths()[d] > 2.0 * reach_)) {
+    if (cell.walls().across[d] && !(cell.lengths()[d] > shortest_in_ranges * range)) {
       throw BadInput(fmt::format("a cell of length {:.6g} between walls must be longer than {} times kernel.range = {}",
-                                 cell.lengths()[d], 2.0 * reach_in_ranges, range));
+                                 cell.lengths()[d], shortest_in_ranges, range));
     }
   }
-  if (cell.walls().kind == space::WallKind::boundary_particles)
-    sites_ = cell.boundary_sites(std::pow(volume / static_cast<double>(particles), 1.0 / D), range);
+  if (cell.walls().kind != space::WallKind::boundary_particles) return;
+  for (int d = 0; d < D; ++d) {
+    if (!cell.walls().across[d]) continue;
+    for (const auto& pair : cell.walls().across) {
+      if (pair && ((*pair)[0].velocity[d] != 0.0 || (*pair)[1].velocity[d] != 0.0))
+        throw BadInput("walls of boundary particles move along periodic directions only: other walls bar their way");
+    }
+  }
+  sites_ = cell.boundary_sites(std::pow(volume / static_cast<double>(particles), 1.0 / D), range);
 }
 
 template <int D>
@@ -47,6 +56,20 @@ template <int D>
 double WallParticles<D>::longest_lifetime(double largest_speed) const {
   if (!any() || !sites_.empty() || largest_speed <= 0.0) return std::numeric_limits<double>::infinity();
   return path_in_ranges * range_ / largest_speed;
+}
+
+template <int D>
+double WallParticles<D>::largest_wall_speed() const {
+  double largest = 0.0;
+  for (const auto& pair : cell_.walls().across) {
+    if (!pair) continue;
+    for (const space::Wall<D>& wall : *pair) {
+      double square = 0.0;
+      for (const double component : wall.velocity) square += component * component;
+      largest = std::max(largest, std::sqrt(square));
+    }
+  }
+  return largest;
 }
 
 template <int D>
@@ -93,6 +116,7 @@ void WallParticles<D>::settle(const Neighbourhood<D>& near, space::Columns& stat
     if (!sites_.empty()) {
       placed.parent = spam::WallParticle::no_parent;
       placed.wall = sites_[k].wall;
+      for (int d = 0; d < D; ++d) state[D + d][placed.slot] = cell_.wall(placed.wall).velocity[d];
       continue;
     }
     const Image& image = images_[k];

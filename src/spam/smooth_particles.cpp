@@ -59,11 +59,12 @@ void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& tea
   apply_equation_of_state(particles, team);
   if (!fluid_.transport.none()) {
     find_gradients(particles, team);
+    give_to_images(gradients_, particles.walls);
     apply_transport(particles, team);
-    give_to_images(stress_, particles.walls);
   }
   find_rates(particles, team);
-  hold_walls(particles.walls);
+  set_zero_at_walls(acceleration_, particles.walls);
+  set_zero_at_walls(energy_rate_, particles.walls);
 }
 
 template <int D>
@@ -124,19 +125,24 @@ void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Te
 }
 
 template <int D>
-void SmoothParticles<D>::hold_walls(std::span<const WallParticle> walls) {
+void SmoothParticles<D>::renew_walls(std::span<const WallParticle> walls) {
+  for (space::Columns* const columns : {&density_, &pressure_, &gradients_}) give_to_images(*columns, walls);
+  for (const WallParticle& at : walls) temperature_[0][at.slot] = at.temperature;
   set_zero_at_walls(acceleration_, walls);
   set_zero_at_walls(energy_rate_, walls);
 }
 
 template <int D>
-double SmoothParticles<D>::viscous_stress_xy(std::size_t slots) const {
+double SmoothParticles<D>::viscous_stress_xy(std::size_t slots, std::span<const WallParticle> walls) const {
   double sum = 0.0;
   if constexpr (D > 1) {
     if (fluid_.transport.none()) return 0.0;
+    const auto stress = [&](std::size_t i) {
+      return fluid_.transport.viscosity * (gradients_[1][i] + gradients_[D][i]) / density_[0][i];
+    };
     for (std::size_t i = 0; i < slots; ++i)
-      if (density_[0][i] > 0.0)
-        sum -= fluid_.transport.viscosity * (gradients_[1][i] + gradients_[D][i]) / density_[0][i];
+      if (density_[0][i] > 0.0) sum -= stress(i);
+    for (const WallParticle& at : walls) sum += stress(at.slot);
   }
   return sum;
 }

@@ -7,7 +7,6 @@
 
 #include "lucy/spam/smooth_particles.hpp"
 #include "spam/pass_columns.hpp"
-#include "spam/wall_particles.hpp"
 
 namespace lucy::spam {
 
@@ -31,7 +30,6 @@ std::array<WallExchange, 2 * D> SmoothParticles<D>::wall_exchange(const Particle
     for (int a = 0; a < D; ++a)
       carried[triangle<D> + a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] / square;
   }
-  give_to_images(carried, particles.walls);
   for (const WallParticle& at : particles.walls) carried[walls][at.slot] = 1.0 + at.wall;
 
   std::array<WallExchange, 2 * D> result{};

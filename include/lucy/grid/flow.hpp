@@ -80,14 +80,17 @@ struct State {
   std::vector<double> energy;
 };
 
+/// The rolls at the start with amplitude 1, at x in [-1/2, 1/2] widths and y in [-1/2, 1/2] heights: two between
+/// periodic sides, v_x = sin(2 pi x) sin(2 pi y) and v_y = cos(2 pi x) cos(pi y); one between side walls, v_x = cos(pi
+/// x) sin(2 pi y) and v_y = -sin(2 pi x) cos(pi y).
+std::array<double, 2> roll_pattern(Sides sides, double x, double y);
+
 class Flow {
  public:
   /// At rest with density 1, T falling linearly from floor to ceiling.
   explicit Flow(const Settings& settings);
 
-  /// Two rolls of amplitude A between periodic sides, v_x = A sin(2 pi x/W) sin(2 pi y/L) and
-  /// v_y = A cos(2 pi x/W) cos(pi y/L); one roll between side walls, v_x = A cos(pi x/W) sin(2 pi y/L) and
-  /// v_y = -A sin(2 pi x/W) cos(pi y/L).
+  /// Those of roll_pattern().
   void set_rolls(double amplitude);
 
   /// One step of the classic Runge-Kutta method. Throws RunFailed naming time, node and likely cause when a density or
@@ -137,7 +140,7 @@ class Flow {
   }
   double column_x(int column) const;
   double row_y(int row) const;
-  double roll(int column, int row) const;
+  std::array<double, 2> roll(int column, int row) const;
   double wall_temperature(int row) const;
   double node_density(int column, int row, const State& at) const;
   void place_images(State& at) const;

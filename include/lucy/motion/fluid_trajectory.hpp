@@ -106,12 +106,16 @@ class FluidTrajectory {
   /// dE - work - heat since the start, per particle: what the integrator got wrong.
   double energy_drift() const;
   /// See SmoothParticles::viscous_stress_xy.
-  double viscous_stress_xy() const { return fluid_.viscous_stress_xy(near_.slots()); }
+  double viscous_stress_xy() const { return fluid_.viscous_stress_xy(near_.slots(), walls_.particles()); }
   /// See SmoothParticles::entropy_production; by particle number, two each.
   std::vector<double> entropy_production() const;
 
-  /// What walls give now, by wall number.
-  std::array<spam::WallExchange, 2 * D> wall_exchange() const;
+  /// What walls have given since the start, energies by wall number: the trapezoidal rule over every step, from its
+  /// beginning to its end before reflections. (The power jumps where a particle is turned round.) Work has what gravity
+  /// asks for when a particle is put back to its side of a wall.
+  const std::array<spam::WallExchange, 2 * D>& given_by_walls() const { return given_by_walls_; }
+  /// What they give now, per time.
+  const std::array<spam::WallExchange, 2 * D>& power_of_walls() const { return power_of_walls_; }
   /// How often a particle crossed a wall and was reflected, since the start.
   std::int64_t reflections() const { return reflections_; }
   /// The particles and those that stand for walls.
@@ -147,7 +151,10 @@ class FluidTrajectory {
   double largest_acceleration() const;
   bool list_lasts(double dt);
   bool try_step(double dt);
+  std::array<spam::WallExchange, 2 * D> find_power_of_walls() const;
+  void count_what_walls_gave(double dt);
   void reflect_at_walls(double dt);
+  void refuse_start_outside(const FluidStart<D>& start) const;
   void refuse_impossible_particles() const;
   std::string why_stuck(bool near, double piece) const;
 
@@ -170,6 +177,8 @@ class FluidTrajectory {
   double internal_energy_ = 0.0;
   double chi_ = 0.0;
   double energy_rate_ = 0.0;
+  std::array<spam::WallExchange, 2 * D> power_of_walls_{};
+  std::array<spam::WallExchange, 2 * D> given_by_walls_{};
   std::int64_t reflections_ = 0;
   WatchReport report_;
 };

@@ -21,8 +21,11 @@ namespace lucy::motion {
 template <int D>
 class WallParticles {
  public:
-  /// For `particles` particles in a cell, of interaction range `range`. Throws BadInput, naming the axis, for a cell
-  /// between walls that is not wider than twice the range and its margin.
+  /// A cell between walls has to be longer than this many ranges: images at either end see different particles.
+  static constexpr double shortest_in_ranges = 2.9;
+
+  /// For `particles` particles in a cell, of interaction range `range`. Throws BadInput for a shorter cell, and for
+  /// boundary particles that would move away from their places since other walls bar their way.
   WallParticles(const space::Cell<D>& cell, std::size_t particles, double range);
 
   const space::Cell<D>& cell() const { return cell_; }
@@ -31,6 +34,7 @@ class WallParticles {
   std::size_t most() const;
   /// The longest life of a list whose images are made by place().
   double longest_lifetime(double largest_speed) const;
+  double largest_wall_speed() const;
 
   /// Gives them slots, for a list that is about to be sorted: `state` holds positions in its first D columns.
   void place(Neighbourhood<D>& near, space::Columns& state);

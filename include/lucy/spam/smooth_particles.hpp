@@ -69,19 +69,20 @@ class SmoothParticles {
   const space::Columns& pressure() const { return pressure_; }  ///< P_eq
   /// d v_a/d x_b in column a D + b, then d T/d x_b. Without transport these are not computed: no columns.
   const space::Columns& gradients() const { return gradients_; }
-  /// sum_{i<j} f_x,ij y_ij: V times the xy component of the pairs' share of the pressure tensor.
+  /// sum_{i<j} f_x,ij y_ij: V times the xy component of the pairs' share of the pressure tensor. Without a meaning
+  /// between walls, whose particles are counted.
   double virial_xy() const { return virial_xy_; }
   /// What the walls give, see wall_exchange.hpp; of the state last evaluated, by wall number.
   std::array<WallExchange, 2 * D> wall_exchange(const Particles<D>& particles, const Team& team) const;
   /// V times the average over the volume of the Newtonian stress -eta (dv_x/dy + dv_y/dx): sum_i m (P_xy/rho)_i.
-  double viscous_stress_xy(std::size_t slots) const;
+  double viscous_stress_xy(std::size_t slots, std::span<const WallParticle> walls = {}) const;
 
   /// The columns that the list's upkeep sorts along, so that what evaluate() left stays with its particles.
   std::array<space::Columns*, 6> columns_to_sort() {
     return {&density_, &temperature_, &pressure_, &gradients_, &acceleration_, &energy_rate_};
   }
-  /// Sets the rates of what stands for walls to zero.
-  void hold_walls(std::span<const WallParticle> walls);
+  /// Gives new images of walls what evaluate() would have left with them.
+  void renew_walls(std::span<const WallParticle> walls);
   /// What those hold, and the sums.
   void save(ArchiveWriter& archive, std::size_t slots) const;
   void load(ArchiveReader& archive, std::size_t slots);

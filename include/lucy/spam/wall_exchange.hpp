@@ -23,6 +23,8 @@ namespace lucy::spam {
 struct WallExchange {
   double conduction = 0.0;
   double work = 0.0;
+
+  double both() const { return conduction + work; }
 };
 
 /// The pair sum. Carries velocities, the lower triangle of P/rho^2, Q/rho^2, and 0 for a particle of the fluid, 1 + its
@@ -42,7 +44,15 @@ struct WallExchangeSum {
                   std::array<pairs::Lanes, totals>& sums) const {
     constexpr int flux = D + stresses;
     constexpr int wall = flux + D;
-    const pairs::Lanes slope = kernel.slope(pair.distance);
+    // Far from walls there is nothing to do.
+    const pairs::Lanes& of_i = pair.of_i[wall];
+    const pairs::Lanes& of_j = pair.of_j[wall];
+    pairs::Lanes sign = 0.0;
+    pairs::simd::where(of_i == 0.0 && of_j > 0.0, sign) = 1.0;
+    pairs::simd::where(of_j == 0.0 && of_i > 0.0, sign) = -1.0;
+    if (pairs::simd::none_of(sign != 0.0)) return;
+
+    const pairs::Lanes slope = sign * kernel.slope(pair.distance);
     pairs::Lanes heat = 0.0;   // from j to i
     pairs::Lanes power = 0.0;  // f_ij . (v_i + v_j)
     for (int a = 0; a < D; ++a) {
@@ -53,14 +63,9 @@ struct WallExchangeSum {
       heat += (pair.of_i[flux + a] + pair.of_j[flux + a]) * pair.displacement[a];
     }
     for (int number = 0; number < 2 * D; ++number) {
-      const pairs::Lanes code = 1.0 + number;
-      const auto to_i = pair.of_i[wall] == 0.0 && pair.of_j[wall] == code;
-      const auto to_j = pair.of_j[wall] == 0.0 && pair.of_i[wall] == code;
-      pairs::Lanes sign = 0.0;
-      pairs::simd::where(to_i, sign) = 1.0;
-      pairs::simd::where(to_j, sign) = -1.0;
-      sums[2 * number] += sign * slope * heat;
-      sums[2 * number + 1] += 0.5 * sign * slope * power;
+      const auto of_this_wall = of_i + of_j == pairs::Lanes(1.0 + number);
+      pairs::simd::where(of_this_wall, sums[2 * number]) += slope * heat;
+      pairs::simd::where(of_this_wall, sums[2 * number + 1]) += 0.5 * slope * power;
     }
   }
 };
