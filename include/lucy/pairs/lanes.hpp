@@ -50,12 +50,6 @@ inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
 #endif
 }
 
-/// Lane l of the result is lane (l + by) mod 8 of `value`.
-template <int by>
-Lanes rotate(const Lanes& value) {
-  return Lanes([&](auto lane) { return value[(static_cast<std::size_t>(lane) + by) % lane_count]; });
-}
-
 /// body(0) ... body(count - 1), the argument being a constant: arrays of Lanes that are reached by constants alone stay
 /// in registers, which a loop over their index would keep the compiler from.
 template <int count, class Body>
@@ -69,33 +63,42 @@ LUCY_INLINE void unrolled(const Body& body) {
 namespace detail {
 
 using Vector [[gnu::vector_size(lane_count * sizeof(double))]] = double;
+using Half [[gnu::vector_size(lane_count / 2 * sizeof(double))]] = double;
 
-/// Chosen lanes of a (0 to 7) and b (8 to 15).
-template <int... chosen>
-Vector shuffled(const Vector& a, const Vector& b) {
+/// Chosen elements of a and, counted on, of b.
+template <int... chosen, class V>
+auto shuffled(const V& a, const V& b) {
   return __builtin_shufflevector(a, b, chosen...);
 }
 
 }  // namespace detail
 
+/// Lane l of the result is lane (l + by) mod 8 of `value`.
+template <int by>
+LUCY_INLINE Lanes rotate(const Lanes& value) {
+  static_assert(0 < by && by < lane_count);
+  const auto v = std::bit_cast<detail::Vector>(value);
+  return std::bit_cast<Lanes>(detail::shuffled<by, by + 1, by + 2, by + 3, by + 4, by + 5, by + 6, by + 7>(v, v));
+}
+
+/// One addition into the sum over lanes: l and l + 4.
+using FoldedLanes = detail::Half;
+LUCY_INLINE FoldedLanes folded(const Lanes& value) {
+  const auto v = std::bit_cast<detail::Vector>(value);
+  return detail::shuffled<0, 1, 2, 3>(v, v) + detail::shuffled<4, 5, 6, 7>(v, v);
+}
+
 /// Lane l of the result is the sum over the lanes of rows[l], each as ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
-inline Lanes sums_of_rows(const std::array<Lanes, lane_count>& rows) {
-  using detail::shuffled, detail::Vector;
-  std::array<Vector, 4> halves;  // of row r in lanes 0 to 3, of row r + 4 beyond
-  unrolled<4>([&](auto r) {
-    const auto a = std::bit_cast<Vector>(rows[r]);
-    const auto b = std::bit_cast<Vector>(rows[r + 4]);
-    halves[r] = shuffled<0, 1, 2, 3, 8, 9, 10, 11>(a, b) + shuffled<4, 5, 6, 7, 12, 13, 14, 15>(a, b);
-  });
-  std::array<Vector, 2> quarters;
-  unrolled<2>([&](auto r) {
-    const Vector& a = halves[r];
-    const Vector& b = halves[r + 2];
-    quarters[r] = shuffled<0, 1, 8, 9, 4, 5, 12, 13>(a, b) + shuffled<2, 3, 10, 11, 6, 7, 14, 15>(a, b);
-  });
-  const auto& [a, b] = quarters;
-  return std::bit_cast<Lanes>(
-      Vector(shuffled<0, 8, 2, 10, 4, 12, 6, 14>(a, b) + shuffled<1, 9, 3, 11, 5, 13, 7, 15>(a, b)));
+LUCY_INLINE Lanes sums_of_rows(const std::array<FoldedLanes, lane_count>& rows) {
+  using detail::shuffled, detail::Half;
+  const auto sums_of_four = [](const Half& a, const Half& b, const Half& c, const Half& d) -> Half {
+    const Half ac = shuffled<0, 1, 4, 5>(a, c) + shuffled<2, 3, 6, 7>(a, c);
+    const Half bd = shuffled<0, 1, 4, 5>(b, d) + shuffled<2, 3, 6, 7>(b, d);
+    return shuffled<0, 4, 2, 6>(ac, bd) + shuffled<1, 5, 3, 7>(ac, bd);
+  };
+  const Half low = sums_of_four(rows[0], rows[1], rows[2], rows[3]);
+  const Half high = sums_of_four(rows[4], rows[5], rows[6], rows[7]);
+  return std::bit_cast<Lanes>(detail::Vector(shuffled<0, 1, 2, 3, 4, 5, 6, 7>(low, high)));
 }
 
 }  // namespace lucy::pairs
