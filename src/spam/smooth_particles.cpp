@@ -46,7 +46,7 @@ SmoothParticles<D>::SmoothParticles(const Fluid<D>& fluid, std::size_t slots)
       energy_rate_(1, slots) {
   fluid.validate();
   const bool plain = fluid.transport.none();
-  gradients_ = space::Columns(plain ? 0 : D * D + D, slots);
+  deformation_ = space::Columns(plain ? 0 : triangle<D> + D, slots);
   mean_factor_ = space::Columns(plain ? 0 : 1, slots);
   stress_ = space::Columns(plain ? 1 : triangle<D> + D, slots);
 }
@@ -56,7 +56,7 @@ void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& tea
   densities<D>(fluid_.weight, particles.list, particles.images, particles.position, density_[0], slopes_, team);
   apply_equation_of_state(particles, team);
   if (!fluid_.transport.none()) {
-    find_gradients(particles, team);
+    find_deformation(particles, team);
     apply_transport(particles, team);
   }
   find_rates(particles, team);
@@ -80,14 +80,13 @@ void SmoothParticles<D>::apply_equation_of_state(const Particles<D>& particles, 
       },
       fluid_.state);
   const bool plain = fluid_.transport.none();
-  const bool geometric = fluid_.mean == DensityMean::geometric;
   for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
     const std::size_t first = cluster * pairs::lane_count;
     const Lanes rho = pairs::load(density_[0] + first);
     if (plain) {
       pairs::store(stress_[0] + first, pairs::load(pressure_[0] + first) / (rho * rho));
     } else {
-      pairs::store(mean_factor_[0] + first, geometric ? 1.0 / sqrt(rho) : rho);
+      pairs::store(mean_factor_[0] + first, mean_factor(fluid_.mean, rho));
     }
   });
 }
@@ -96,23 +95,21 @@ template <int D>
 void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Team& team) {
   for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
     const std::size_t first = cluster * pairs::lane_count;
-    std::array<Lanes, D * D> gradient;
-    for (int c = 0; c < D * D; ++c) {
-      gradient[c] = pairs::load(gradients_[c] + first);
-    }
+    std::array<Lanes, triangle<D>> deformation;
+    for (int c = 0; c < triangle<D>; ++c) deformation[c] = pairs::load(deformation_[c] + first);
     const Lanes rho = pairs::load(density_[0] + first);
     const Lanes square = rho * rho;
     const Lanes per_square = 1.0 / square;
     const Lanes specific =
         pairs::load(pressure_[0] + first) / square;  // a division: exactly 1/2 for the isentropic fluid
-    const auto viscous = viscous_stress<D>(fluid_.transport, gradient);
+    const auto viscous = viscous_stress<D>(fluid_.transport, deformation);
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b <= a; ++b) {
         const int at = a * (a + 1) / 2 + b;
         const Lanes stress = viscous[at] * per_square;
         pairs::store(stress_[at] + first, a == b ? stress + specific : stress);
       }
-      const Lanes along = pairs::load(gradients_[D * D + a] + first);
+      const Lanes along = pairs::load(deformation_[triangle<D> + a] + first);
       pairs::store(stress_[triangle<D> + a] + first, -fluid_.transport.conductivity * along * per_square);
     }
   });
@@ -124,8 +121,7 @@ double SmoothParticles<D>::viscous_stress_xy(std::size_t slots) const {
   if constexpr (D > 1) {
     if (fluid_.transport.none()) return 0.0;
     for (std::size_t i = 0; i < slots; ++i)
-      if (density_[0][i] > 0.0)
-        sum -= fluid_.transport.viscosity * (gradients_[1][i] + gradients_[D][i]) / density_[0][i];
+      if (density_[0][i] > 0.0) sum -= fluid_.transport.viscosity * deformation_[1][i] / density_[0][i];
   }
   return sum;
 }
@@ -133,7 +129,7 @@ double SmoothParticles<D>::viscous_stress_xy(std::size_t slots) const {
 template <int D>
 void SmoothParticles<D>::save(ArchiveWriter& archive, std::size_t slots) const {
   for (const space::Columns* columns :
-       {&density_, &temperature_, &pressure_, &gradients_, &acceleration_, &energy_rate_})
+       {&density_, &temperature_, &pressure_, &deformation_, &acceleration_, &energy_rate_})
     columns->save(archive, slots);
   archive.put(virial_xy_);
 }
