@@ -320,8 +320,9 @@ std::vector<double> FluidTrajectory<D>::rates_of(const spam::Fluid<D>& fluid) co
 
 template <int D>
 std::vector<double> FluidTrajectory<D>::gradients() const {
-  if (fluid_.gradients().count() == 0) return {};
-  return by_particle(fluid_.gradients(), 0, D * D + D);
+  if (fluid_.fluid().transport.none()) return {};
+  const auto images = near_.images(near_.age());
+  return by_particle(fluid_.gradients(particles_at(now_.columns, images), team_), 0, D * D + D);
 }
 
 template <int D>

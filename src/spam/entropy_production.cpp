@@ -35,11 +35,11 @@ space::Columns SmoothParticles<D>::entropy_production(const Particles<D>& partic
   for (std::size_t i = 0; i < slots; ++i) {
     if (particles.number[i] == pairs::nobody) continue;
     const double square = density_[0][i] * density_[0][i];
-    std::array<double, D * D> gradient;
-    for (int c = 0; c < D * D; ++c) gradient[c] = gradients_[c][i];
-    const auto stress = viscous_stress<D>(fluid_.transport, gradient);
+    std::array<double, triangle<D>> deformation;
+    for (int c = 0; c < triangle<D>; ++c) deformation[c] = deformation_[c][i];
+    const auto stress = viscous_stress<D>(fluid_.transport, deformation);
     for (int c = 0; c < triangle<D>; ++c) viscous[c][i] = stress[c] / square;
-    for (int a = 0; a < D; ++a) flux[a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] / square;
+    for (int a = 0; a < D; ++a) flux[a][i] = -fluid_.transport.conductivity * deformation_[triangle<D> + a][i] / square;
     coldness[0][i] = 1.0 / temperature_[0][i];
   }
   std::visit(

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "lucy/spam/fluid.hpp"
@@ -17,21 +18,27 @@ namespace lucy::spam {
 template <int D>
 constexpr int triangle = D*(D + 1) / 2;
 
-/// Newton's law without P_eq: the viscous stress, lower triangle by rows, where d v_a/d x_b is gradient[a D + b]. T is
-/// double or Lanes.
+/// Newton's law without P_eq: the viscous stress from the rate of deformation as GradientSum gives it, both lower
+/// triangles by rows. T is double or Lanes.
 template <int D, class T>
-std::array<T, triangle<D>> viscous_stress(const Transport& transport, const std::array<T, D * D>& gradient) {
+std::array<T, triangle<D>> viscous_stress(const Transport& transport, const std::array<T, triangle<D>>& deformation) {
+  constexpr auto at = [](int a, int b) { return a * (a + 1) / 2 + b; };
   T divergence = 0.0;
-  for (int a = 0; a < D; ++a) divergence += gradient[a * D + a];
+  for (int a = 0; a < D; ++a) divergence += deformation[at(a, a)];
   const T spherical = (transport.bulk_viscosity - 2.0 / D * transport.viscosity) * divergence;
   std::array<T, triangle<D>> stress;
   for (int a = 0; a < D; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      const T shear = -transport.viscosity * (gradient[a * D + b] + gradient[b * D + a]);
-      stress[a * (a + 1) / 2 + b] = a == b ? shear - spherical : shear;
-    }
+    for (int b = 0; b < a; ++b) stress[at(a, b)] = -transport.viscosity * deformation[at(a, b)];
+    stress[at(a, a)] = -2.0 * transport.viscosity * deformation[at(a, a)] - spherical;
   }
   return stress;
+}
+
+/// What a particle of this density carries for the rho_ij of gradients. T is double or Lanes.
+template <class T>
+T mean_factor(DensityMean mean, const T& density) {
+  using std::sqrt;
+  return mean == DensityMean::geometric ? 1.0 / sqrt(density) : density;
 }
 
 /// work(cluster) for every cluster, shared in chunks.

@@ -47,7 +47,7 @@ SmoothParticles<D>::SmoothParticles(const Fluid<D>& fluid, std::size_t slots)
       energy_rate_(1, slots) {
   fluid.validate();
   const bool plain = fluid.transport.none();
-  gradients_ = space::Columns(plain ? 0 : D * D + D, slots);
+  deformation_ = space::Columns(plain ? 0 : triangle<D> + D, slots);
   mean_factor_ = space::Columns(plain ? 0 : 1, slots);
   stress_ = space::Columns(plain ? 1 : triangle<D> + D, slots);
 }
@@ -58,8 +58,8 @@ void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& tea
   give_to_images(density_, particles.walls);
   apply_equation_of_state(particles, team);
   if (!fluid_.transport.none()) {
-    find_gradients(particles, team);
-    give_to_images(gradients_, particles.walls);
+    find_deformation(particles, team);
+    give_to_images(deformation_, particles.walls);
     apply_transport(particles, team);
   }
   find_rates(particles, team);
@@ -86,14 +86,13 @@ void SmoothParticles<D>::apply_equation_of_state(const Particles<D>& particles, 
       fluid_.state);
   set_states_at_walls(fluid_.state, density_[0], pressure_[0], temperature_[0], particles.walls);
   const bool plain = fluid_.transport.none();
-  const bool geometric = fluid_.mean == DensityMean::geometric;
   for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
     const std::size_t first = cluster * pairs::lane_count;
     const Lanes rho = pairs::load(density_[0] + first);
     if (plain) {
       pairs::store(stress_[0] + first, pairs::load(pressure_[0] + first) / (rho * rho));
     } else {
-      pairs::store(mean_factor_[0] + first, geometric ? 1.0 / sqrt(rho) : rho);
+      pairs::store(mean_factor_[0] + first, mean_factor(fluid_.mean, rho));
     }
   });
 }
@@ -102,23 +101,21 @@ template <int D>
 void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Team& team) {
   for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
     const std::size_t first = cluster * pairs::lane_count;
-    std::array<Lanes, D * D> gradient;
-    for (int c = 0; c < D * D; ++c) {
-      gradient[c] = pairs::load(gradients_[c] + first);
-    }
+    std::array<Lanes, triangle<D>> deformation;
+    for (int c = 0; c < triangle<D>; ++c) deformation[c] = pairs::load(deformation_[c] + first);
     const Lanes rho = pairs::load(density_[0] + first);
     const Lanes square = rho * rho;
     const Lanes per_square = 1.0 / square;
     const Lanes specific =
         pairs::load(pressure_[0] + first) / square;  // a division: exactly 1/2 for the isentropic fluid
-    const auto viscous = viscous_stress<D>(fluid_.transport, gradient);
+    const auto viscous = viscous_stress<D>(fluid_.transport, deformation);
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b <= a; ++b) {
         const int at = a * (a + 1) / 2 + b;
         const Lanes stress = viscous[at] * per_square;
         pairs::store(stress_[at] + first, a == b ? stress + specific : stress);
       }
-      const Lanes along = pairs::load(gradients_[D * D + a] + first);
+      const Lanes along = pairs::load(deformation_[triangle<D> + a] + first);
       pairs::store(stress_[triangle<D> + a] + first, -fluid_.transport.conductivity * along * per_square);
     }
   });
@@ -126,7 +123,7 @@ void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Te
 
 template <int D>
 void SmoothParticles<D>::renew_walls(std::span<const WallParticle> walls) {
-  for (space::Columns* const columns : {&density_, &pressure_, &gradients_}) give_to_images(*columns, walls);
+  for (space::Columns* const columns : {&density_, &pressure_, &deformation_}) give_to_images(*columns, walls);
   for (const WallParticle& at : walls) temperature_[0][at.slot] = at.temperature;
   set_zero_at_walls(acceleration_, walls);
   set_zero_at_walls(energy_rate_, walls);
@@ -137,9 +134,7 @@ double SmoothParticles<D>::viscous_stress_xy(std::size_t slots, std::span<const 
   double sum = 0.0;
   if constexpr (D > 1) {
     if (fluid_.transport.none()) return 0.0;
-    const auto stress = [&](std::size_t i) {
-      return fluid_.transport.viscosity * (gradients_[1][i] + gradients_[D][i]) / density_[0][i];
-    };
+    const auto stress = [&](std::size_t i) { return fluid_.transport.viscosity * deformation_[1][i] / density_[0][i]; };
     for (std::size_t i = 0; i < slots; ++i)
       if (density_[0][i] > 0.0) sum -= stress(i);
     for (const WallParticle& at : walls) sum += stress(at.slot);
@@ -150,7 +145,7 @@ double SmoothParticles<D>::viscous_stress_xy(std::size_t slots, std::span<const 
 template <int D>
 void SmoothParticles<D>::save(ArchiveWriter& archive, std::size_t slots) const {
   for (const space::Columns* columns :
-       {&density_, &temperature_, &pressure_, &gradients_, &acceleration_, &energy_rate_})
+       {&density_, &temperature_, &pressure_, &deformation_, &acceleration_, &energy_rate_})
     columns->save(archive, slots);
   archive.put(virial_xy_);
 }

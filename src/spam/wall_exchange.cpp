@@ -23,12 +23,12 @@ std::array<WallExchange, 2 * D> SmoothParticles<D>::wall_exchange(const Particle
     const double square = density_[0][i] * density_[0][i];
     for (int a = 0; a < D; ++a) carried[a * (a + 1) / 2 + a][i] = pressure_[0][i] / square;
     if (plain) continue;
-    std::array<double, D * D> gradient;
-    for (int c = 0; c < D * D; ++c) gradient[c] = gradients_[c][i];
-    const auto viscous = viscous_stress<D>(fluid_.transport, gradient);
+    std::array<double, triangle<D>> deformation;
+    for (int c = 0; c < triangle<D>; ++c) deformation[c] = deformation_[c][i];
+    const auto viscous = viscous_stress<D>(fluid_.transport, deformation);
     for (int c = 0; c < triangle<D>; ++c) carried[c][i] += viscous[c] / square;
     for (int a = 0; a < D; ++a)
-      carried[triangle<D> + a][i] = -fluid_.transport.conductivity * gradients_[D * D + a][i] / square;
+      carried[triangle<D> + a][i] = -fluid_.transport.conductivity * deformation_[triangle<D> + a][i] / square;
   }
   for (const WallParticle& at : particles.walls) carried[walls][at.slot] = 1.0 + at.wall;
 

@@ -160,11 +160,11 @@ TEST(FluidTrajectory, GoesOnFromASavedStateWithTheSameBits) {
   resumed.load(reader);
   EXPECT_TRUE(reader.exhausted());
   EXPECT_EQ(whole.densities(), resumed.densities());
-  EXPECT_EQ(whole.gradients(), resumed.gradients());
   EXPECT_EQ(whole.accelerations(), resumed.accelerations());
   EXPECT_EQ(whole.energy(), resumed.energy());
   EXPECT_EQ(whole.viscous_stress_xy(), resumed.viscous_stress_xy());
   for (auto* trajectory : {&whole, &resumed}) trajectory->renew_list(0.1);
+  EXPECT_EQ(whole.gradients(), resumed.gradients());
   EXPECT_EQ(whole.entropy_production(), resumed.entropy_production());
   for (auto* trajectory : {&whole, &resumed}) run(*trajectory, 5.0, 0.1);
   EXPECT_EQ(whole.positions(), resumed.positions());
@@ -199,10 +199,13 @@ TEST(FluidTrajectory, AStateIsTheSameAfterItsListIsRenewed) {
   const auto production = trajectory.entropy_production();
   trajectory.renew_list(0.1);
   EXPECT_EQ(trajectory.densities(), density);
-  EXPECT_EQ(trajectory.gradients(), gradients);
   EXPECT_EQ(trajectory.energy_rates(), energy_rates);
-  const auto again = trajectory.entropy_production();
-  for (std::size_t i = 0; i < production.size(); ++i) ASSERT_NEAR(again[i], production[i], 1e-14);
+  const auto expect_near = [](const std::vector<double>& again, const std::vector<double>& before) {
+    ASSERT_EQ(again.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(again[i], before[i], 1e-14);
+  };
+  expect_near(trajectory.gradients(), gradients);
+  expect_near(trajectory.entropy_production(), production);
 }
 
 TEST(FluidTrajectory, GivesTheSameBitsForEveryNumberOfThreads) {

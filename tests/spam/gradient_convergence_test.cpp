@@ -28,8 +28,8 @@ double relative_error(kernel::WeightName weight, double range, int side, double 
     crowd.energy[i] = 1.0 + 0.5 * std::sin(k * crowd.position[i][0]);
   const Fluid<2> fluid{kernel::make_weight<2>(weight, range), IdealGas(), {.conductivity = 1.0}, {}, {}};
   const Evaluated<2> evaluated(fluid, crowd);
-  const auto along_x = evaluated.by_particle(evaluated.fluid.gradients(), 4);
-  const auto along_y = evaluated.by_particle(evaluated.fluid.gradients(), 5);
+  const auto along_x = evaluated.gradient(4);
+  const auto along_y = evaluated.gradient(5);
   double error = 0.0;
   double size = 0.0;
   for (std::size_t i = 0; i < along_x.size(); ++i) {

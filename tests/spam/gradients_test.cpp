@@ -39,16 +39,47 @@ void expect_slow_gradients(const space::Box<D>& box, double range, std::uint64_t
       const auto slow = testing::slow_rates(fluid, crowd);
       for (int b = 0; b < D; ++b) {
         for (int a = 0; a < D; ++a) {
-          const auto gradient = fast.by_particle(fast.fluid.gradients(), a * D + b);
+          const auto gradient = fast.gradient(a * D + b);
           for (std::size_t i = 0; i < gradient.size(); ++i) {
             ASSERT_NEAR(gradient[i], slow.velocity_gradient[i](a, b), 1e-12)
                 << "d v_" << a << "/d x_" << b << " of particle " << i;
           }
         }
-        const auto gradient = fast.by_particle(fast.fluid.gradients(), D * D + b);
+        const auto gradient = fast.gradient(D * D + b);
         for (std::size_t i = 0; i < gradient.size(); ++i)
           ASSERT_NEAR(gradient[i], slow.temperature_gradient[i][b], 1e-12) << "d T/d x_" << b << " of particle " << i;
       }
+    }
+  }
+}
+
+/// What the rates use: of the velocity the lower triangle of the symmetric part.
+template <int D>
+void expect_slow_deformation(const space::Box<D>& box, double range, std::uint64_t seed) {
+  SmoothCrowd<D> crowd = testing::lattice<D>(box, 0.4, seed);
+  testing::make_noisy(crowd, 1.0, seed + 1);
+  for (const auto weight : both_weights) {
+    for (const auto mean : both_means) {
+      const Fluid<D> fluid = gas<D>(weight, range, mean);
+      const Evaluated<D> fast(fluid, crowd);
+      const auto slow = testing::slow_rates(fluid, crowd);
+      int column = 0;
+      for (int a = 0; a < D; ++a) {
+        for (int b = 0; b <= a; ++b) {
+          const auto deformation = fast.by_particle(fast.fluid.deformation(), column++);
+          for (std::size_t i = 0; i < deformation.size(); ++i) {
+            const auto& gradient = slow.velocity_gradient[i];
+            ASSERT_NEAR(deformation[i], a == b ? gradient(a, a) : gradient(a, b) + gradient(b, a), 2e-12)
+                << a << b << " of particle " << i;
+          }
+        }
+      }
+      for (int b = 0; b < D; ++b) {
+        const auto gradient = fast.by_particle(fast.fluid.deformation(), column++);
+        for (std::size_t i = 0; i < gradient.size(); ++i)
+          ASSERT_NEAR(gradient[i], slow.temperature_gradient[i][b], 1e-12) << "d T/d x_" << b << " of particle " << i;
+      }
+      ASSERT_EQ(column, fast.fluid.deformation().count());
     }
   }
 }
@@ -66,6 +97,13 @@ TEST(Gradients, AreThoseOfLaboratoryVelocitiesInAShearedBox) {
   }
 }
 
+TEST(Gradients, OfTheRatesAreTheSymmetricPartOfThatOfTheVelocityAndThatOfTheTemperature) {
+  expect_slow_deformation<1>(space::Box<1>({30.0}), 3.0, 31);
+  expect_slow_deformation<2>(space::Box<2>({12.0, 9.0}), 3.0, 32);
+  expect_slow_deformation<2>(space::Box<2>({12.0, 9.0}, 0.6, 4.4), 3.0, 33);
+  expect_slow_deformation<3>(space::Box<3>({6.0, 7.0, 6.0}, -1.3, -31.7), 2.5, 34);
+}
+
 template <int D>
 void expect_no_gradient_of_constants(const space::Box<D>& box) {
   for (const auto weight : both_weights) {
@@ -75,7 +113,9 @@ void expect_no_gradient_of_constants(const space::Box<D>& box) {
       crowd.energy.assign(crowd.energy.size(), 1.3);
       const Evaluated<D> evaluated(gas<D>(weight, 2.5, mean), crowd);
       for (int c = 0; c < D * D + D; ++c)
-        for (const double gradient : evaluated.by_particle(evaluated.fluid.gradients(), c)) ASSERT_EQ(gradient, 0.0);
+        for (const double gradient : evaluated.gradient(c)) ASSERT_EQ(gradient, 0.0);
+      for (int c = 0; c < evaluated.fluid.deformation().count(); ++c)
+        for (const double rate : evaluated.by_particle(evaluated.fluid.deformation(), c)) ASSERT_EQ(rate, 0.0);
     }
   }
 }
@@ -90,11 +130,10 @@ TEST(Gradients, OfConstantFieldsAreExactlyZero) {
 double linear_factor(kernel::WeightName weight, double range, DensityMean mean) {
   const SmoothCrowd<2> crowd = testing::lattice<2>(space::Box<2>({16.0, 16.0}, 0.25));
   const Evaluated<2> evaluated(gas<2>(weight, range, mean), crowd);
-  const auto along_y = evaluated.by_particle(evaluated.fluid.gradients(), 1);
+  const auto along_y = evaluated.gradient(1);
   for (const double gradient : along_y) EXPECT_NEAR(gradient, along_y[0], 1e-14);
   for (const int other : {0, 2, 3, 4, 5}) {
-    for (const double gradient : evaluated.by_particle(evaluated.fluid.gradients(), other))
-      EXPECT_NEAR(gradient, 0.0, 1e-14);
+    for (const double gradient : evaluated.gradient(other)) EXPECT_NEAR(gradient, 0.0, 1e-14);
   }
   return along_y[0] / 0.25;
 }
@@ -106,7 +145,7 @@ double wave_factor(kernel::WeightName weight, double range, int length) {
   for (std::size_t i = 0; i < crowd.position.size(); ++i)
     crowd.energy[i] = 1.0 + 0.1 * std::sin(k * crowd.position[i][1]);
   const Evaluated<2> evaluated(gas<2>(weight, range), crowd);
-  const auto gradient = evaluated.by_particle(evaluated.fluid.gradients(), 5);
+  const auto gradient = evaluated.gradient(5);
   double product = 0.0;
   double square = 0.0;
   for (std::size_t i = 0; i < gradient.size(); ++i) {
@@ -140,11 +179,11 @@ TEST(Gradients, AreLinearInTheField) {
   const Evaluated<2> first(fluid, crowd);
   const Evaluated<2> second(fluid, other);
   for (int b = 0; b < 2; ++b) {
-    const auto vx = first.by_particle(first.fluid.gradients(), b);
-    const auto vy = first.by_particle(first.fluid.gradients(), 2 + b);
-    const auto temperature = first.by_particle(first.fluid.gradients(), 4 + b);
-    const auto scaled = second.by_particle(second.fluid.gradients(), b);
-    const auto added = second.by_particle(second.fluid.gradients(), 2 + b);
+    const auto vx = first.gradient(b);
+    const auto vy = first.gradient(2 + b);
+    const auto temperature = first.gradient(4 + b);
+    const auto scaled = second.gradient(b);
+    const auto added = second.gradient(2 + b);
     for (std::size_t i = 0; i < vx.size(); ++i) {
       EXPECT_NEAR(scaled[i], -2.0 * vx[i], 1e-13);
       EXPECT_NEAR(added[i], vy[i] + temperature[i], 1e-13);

@@ -84,6 +84,7 @@ struct Evaluated {
   pairs::ImageTable<D> images;
   double strain_rate;
   SmoothParticles<D> fluid;
+  space::Columns gradients;
 
   Evaluated(const Fluid<D>& made_of, const SmoothCrowd<D>& crowd, const Team& team = Team(1))
       : arranged(crowd),
@@ -97,6 +98,7 @@ struct Evaluated {
       energy[0][slot] = number == pairs::nobody ? 0.0 : crowd.energy[static_cast<std::size_t>(number)];
     }
     fluid.evaluate(particles(), team);
+    gradients = fluid.gradients(particles(), team);
   }
 
   Particles<D> particles() const {
@@ -122,6 +124,8 @@ struct Evaluated {
     return values;
   }
   std::vector<double> acceleration(int d) const { return by_particle(fluid.acceleration(), d); }
+  /// Column a D + b: d v_a/d x_b; then d T/d x_b.
+  std::vector<double> gradient(int column) const { return by_particle(gradients, column); }
   std::vector<double> energy_rate() const { return by_particle(fluid.energy_rate()); }
 };
 

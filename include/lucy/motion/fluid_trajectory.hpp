@@ -133,7 +133,7 @@ class FluidTrajectory {
   /// dv/dt (D numbers) and de/dt as they would be now were the particles of this fluid, whose weight must not reach
   /// farther: what transport adds to a rate is that of the fluid less that of the same fluid without it.
   std::vector<double> rates_of(const spam::Fluid<D>& fluid) const;
-  /// d v_a/d x_b, D D each, then d T/d x_b, D each. Empty without transport.
+  /// d v_a/d x_b, D D each, then d T/d x_b, D each, by a pass over the pairs. Empty without transport.
   std::vector<double> gradients() const;
 
   void save(ArchiveWriter& archive) const;

@@ -159,7 +159,7 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
   unrolled<Sum::totals>([&](auto c) { totals[c] = 0.0; });
   // What a row gives to its particle stays in registers to the row's end, and is added up across lanes once per
   // cluster.
-  std::array<std::array<Lanes, lane_count>, Sum::given> at_i;  // one row per particle of the cluster
+  std::array<std::array<FoldedLanes, lane_count>, Sum::given> at_i;  // one row per particle of the cluster
   const space::ImageShift<D>* const shifts = images.data();
   const RowEntry* const entries = finds ? kept_of_block.entries.data() : block.entries.data();
   const std::uint32_t* cluster_end = finds ? kept_of_block.cluster_end.data() : block.cluster_end.data();
@@ -200,7 +200,7 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
         pair_with_cluster(pass, sum, pair, of_i, now.cluster(), shifts[now.image()], kept.along(), given, totals);
         kept.pass(now, finds || simd::any_of(pair.distance < range));
       }
-      unrolled<Sum::given>([&](auto c) { at_i[c][lane] = given[c]; });
+      unrolled<Sum::given>([&](auto c) { at_i[c][lane] = folded(given[c]); });
     }
     kept.end_cluster();
     unrolled<Sum::given>([&](auto c) {

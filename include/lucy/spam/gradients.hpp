@@ -1,7 +1,7 @@
 // Lucy: smooth-particle and molecular dynamics on one set of kernels.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pass two: gradients of velocity and temperature at every smooth particle,
+// Pass two: the rate of deformation and the gradient of the temperature at every smooth particle, where a gradient is
 //
 //     (grad f)_i = m sum_j (f_j - f_i) grad_i w(r_ij) / rho_ij
 //     rho_ij = (rho_i rho_j)^(1/2) or (rho_i + rho_j)/2
@@ -24,35 +24,59 @@ namespace lucy::spam {
 
 enum class DensityMean { geometric, arithmetic };
 
-/// The pair sum. Carries velocities (peculiar), temperature, and rho^(-1/2) (geometric mean) or rho (arithmetic); gives
-/// d v_a/d x_b in row a (a D + b), then d T/d x_b.
-template <int D, class Kernel, DensityMean mean>
+/// What a pass for the gradients gives.
+enum class Gradients {
+  deformation,  ///< of the velocity the symmetric part alone, which is what viscosity needs
+  whole         ///< of the velocity the rotation too
+};
+
+/// The pair sum. Carries velocities (peculiar), temperature, and rho^(-1/2) (geometric mean) or rho (arithmetic). Gives
+/// the rate of deformation, lower triangle by rows (d v_a/d x_a on the diagonal, d v_a/d x_b + d v_b/d x_a below it),
+/// or the whole d v_a/d x_b in row a (a D + b); then d T/d x_b.
+template <int D, class Kernel, DensityMean mean, Gradients wanted>
 struct GradientSum {
+  static constexpr int of_velocity = wanted == Gradients::deformation ? D * (D + 1) / 2 : D * D;
   static constexpr int carried = D + 2;
   static constexpr int lab_velocity = -1;
-  static constexpr int given = D * D + D;
+  static constexpr int given = of_velocity + D;
   static constexpr int totals = 0;
-  static constexpr pairs::Keeping keeping = pairs::Keeping::finds;  // the slope
+  static constexpr pairs::Keeping keeping =
+      wanted == Gradients::deformation ? pairs::Keeping::finds : pairs::Keeping::nothing;  // the slope
 
   Kernel kernel;
   double strain_rate = 0.0;
 
   LUCY_INLINE void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, given>& to_i,
                               std::array<pairs::Lanes, given>& to_j, std::array<pairs::Lanes, 0>&) const {
-    const pairs::Lanes& slope = pair.kept;
-    pairs::Lanes factor;
+    using pairs::Lanes, pairs::unrolled, pairs::multiply_add;
+    Lanes factor;
     if constexpr (mean == DensityMean::geometric) {
-      factor = slope * (pair.of_i[D + 1] * pair.of_j[D + 1]);
+      factor = pair.of_i[D + 1] * pair.of_j[D + 1];
     } else {
-      factor = slope * (2.0 / (pair.of_i[D + 1] + pair.of_j[D + 1]));
+      factor = 2.0 / (pair.of_i[D + 1] + pair.of_j[D + 1]);
     }
-    std::array<pairs::Lanes, D + 1> difference;  // of v, then T
-    pairs::unrolled<D + 1>([&](auto a) { difference[a] = pair.of_i[a] - pair.of_j[a]; });
-    if constexpr (D > 1) difference[0] = pairs::multiply_add(strain_rate, pair.displacement[1], difference[0]);
-    pairs::unrolled<D>([&](auto b) {
-      const pairs::Lanes along = factor * pair.displacement[b];
-      pairs::unrolled<D + 1>([&](auto a) { to_i[a * D + b] = to_j[a * D + b] = difference[a] * along; });
+    if constexpr (keeping == pairs::Keeping::finds) {
+      factor *= pair.kept;
+    } else {
+      factor *= kernel.slope(pair.distance);
+    }
+    std::array<Lanes, D> along;  // -grad_i w / rho_ij
+    unrolled<D>([&](auto b) { along[b] = factor * pair.displacement[b]; });
+    std::array<Lanes, D + 1> difference;  // of v, then T
+    unrolled<D + 1>([&](auto a) { difference[a] = pair.of_i[a] - pair.of_j[a]; });
+    if constexpr (D > 1) difference[0] = multiply_add(strain_rate, pair.displacement[1], difference[0]);
+    unrolled<D>([&](auto a) {
+      if constexpr (wanted == Gradients::deformation) {
+        unrolled<a>([&](auto b) {
+          to_i[a * (a + 1) / 2 + b] = multiply_add(difference[a], along[b], difference[b] * along[a]);
+        });
+        to_i[a * (a + 1) / 2 + a] = difference[a] * along[a];
+      } else {
+        unrolled<D>([&](auto b) { to_i[a * D + b] = difference[a] * along[b]; });
+      }
+      to_i[of_velocity + a] = difference[D] * along[a];
     });
+    to_j = to_i;
   }
 };
 

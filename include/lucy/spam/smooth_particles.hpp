@@ -4,7 +4,7 @@
 // The rates of a fluid of smooth particles, in three passes of the one pair loop:
 //
 //     1  density.hpp      rho;            then P_eq(rho, e), T(rho, e) particle by particle
-//     2  gradients.hpp    grad v, grad T; then P/rho^2 and Q/rho^2 from the transport laws (fluid.hpp)
+//     2  gradients.hpp    grad v + grad v^T, grad T; then P/rho^2 and Q/rho^2 from the transport laws (fluid.hpp)
 //     3  rates.hpp        dv/dt, de/dt
 //
 // A fluid without viscosity and conduction leaves out the second.
@@ -67,8 +67,9 @@ class SmoothParticles {
   const space::Columns& density() const { return density_; }
   const space::Columns& temperature() const { return temperature_; }
   const space::Columns& pressure() const { return pressure_; }  ///< P_eq
-  /// d v_a/d x_b in column a D + b, then d T/d x_b. Without transport these are not computed: no columns.
-  const space::Columns& gradients() const { return gradients_; }
+  /// The rate of deformation, lower triangle by rows (d v_a/d x_a on the diagonal, d v_a/d x_b + d v_b/d x_a below it),
+  /// then d T/d x_b. Without transport these are not computed: no columns.
+  const space::Columns& deformation() const { return deformation_; }
   /// sum_{i<j} f_x,ij y_ij: V times the xy component of the pairs' share of the pressure tensor. Without a meaning
   /// between walls, whose particles are counted.
   double virial_xy() const { return virial_xy_; }
@@ -79,13 +80,16 @@ class SmoothParticles {
 
   /// The columns that the list's upkeep sorts along, so that what evaluate() left stays with its particles.
   std::array<space::Columns*, 6> columns_to_sort() {
-    return {&density_, &temperature_, &pressure_, &gradients_, &acceleration_, &energy_rate_};
+    return {&density_, &temperature_, &pressure_, &deformation_, &acceleration_, &energy_rate_};
   }
   /// Gives new images of walls what evaluate() would have left with them.
   void renew_walls(std::span<const WallParticle> walls);
   /// What those hold, and the sums.
   void save(ArchiveWriter& archive, std::size_t slots) const;
   void load(ArchiveReader& archive, std::size_t slots);
+
+  /// The whole gradients at the state last evaluated: d v_a/d x_b in column a D + b, then d T/d x_b. A pass of its own.
+  space::Columns gradients(const Particles<D>& particles, const Team& team) const;
 
   /// Entropy production by viscosity and by conduction, per particle, of the state last evaluated: sums over pairs,
   ///     viscosity    -(1/2) f_visc,ij . (v_i - v_j) / T          to each, with its own T
@@ -95,7 +99,7 @@ class SmoothParticles {
 
  private:
   void apply_equation_of_state(const Particles<D>& particles, const Team& team);
-  void find_gradients(const Particles<D>& particles, const Team& team);
+  void find_deformation(const Particles<D>& particles, const Team& team);
   void apply_transport(const Particles<D>& particles, const Team& team);
   void find_rates(const Particles<D>& particles, const Team& team);
 
@@ -105,7 +109,7 @@ class SmoothParticles {
   space::Columns temperature_;
   space::Columns pressure_;
   space::Columns mean_factor_;  // rho^(-1/2) or rho: what the gradients carry
-  space::Columns gradients_;
+  space::Columns deformation_;
   space::Columns stress_;  // P/rho^2, one column or the lower triangle; then Q/rho^2
   space::Columns acceleration_;
   space::Columns energy_rate_;
