@@ -9,6 +9,7 @@
 
 #include "lucy/errors.hpp"
 #include "lucy/files/benard_grid_input.hpp"
+#include "lucy/files/benard_input.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/isomorphism_input.hpp"
@@ -63,6 +64,8 @@ Schema schema_of(InputKind kind) {
       return shear_flow_schema();
     case InputKind::shear_wave:
       return wave_schema(cases::WaveQuantity::shear);
+    case InputKind::benard:
+      return benard_schema();
     case InputKind::benard_grid:
       return benard_grid_schema();
     case InputKind::temperature_wave:
@@ -88,7 +91,7 @@ InputKind kind_of_input(const std::filesystem::path& file, std::span<const std::
   for (const std::string& override : overrides) written.sections.insert(override.substr(0, override.find('.')));
   for (const std::string& key : written.row_keys) written.sections.merge(sections_of_row_key(key));
   const auto has = [&](const char* section) { return written.sections.contains(section); };
-  if (has("cell") || has("grid")) return InputKind::benard_grid;
+  if (has("cell") || has("grid")) return has("system") ? InputKind::benard : InputKind::benard_grid;
   if (has("isentropic")) return InputKind::isomorphism;
   const bool of_fluid = has("fluid") || has("start");
   if (has("wave") || (of_fluid && !has("shear"))) return kind_of_wave(file, overrides);

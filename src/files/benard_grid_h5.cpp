@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "benard_fields_h5.hpp"
 #include "choice_names.hpp"
 #include "hdf5_file.hpp"
 
@@ -34,13 +35,6 @@ constexpr std::array<Quantity, 8> quantities = {{
      "v_y projected on its pattern at the start"},
     {"mass_error", &BenardGridSample::mass_error, "1", "relative change of the mass since the start"},
 }};
-
-void write_column(hid_t group, const char* name, std::vector<hsize_t> shape, const std::vector<double>& values,
-                  std::string_view unit, std::string_view meaning) {
-  const hdf5::Handle dataset = hdf5::write_dataset(group, name, shape, values);
-  add_attribute(dataset, "unit", unit);
-  add_attribute(dataset, "meaning", meaning);
-}
 
 void write_parameters(hid_t file, const cases::BenardGridPoint& point) {
   const hdf5::Handle group = create_group(file, "parameters");
@@ -78,11 +72,7 @@ void write_benard_grid_h5(const std::filesystem::path& path, const cases::Benard
       }
     }
     const grid::Flow::Fields& fields = record.fields;
-    {
-      const hdf5::Handle group = create_group(file, "grid");
-      write_column(group, "x", {fields.x.size()}, fields.x, "sigma", "x of the nodes");
-      write_column(group, "y", {fields.y.size()}, fields.y, "sigma", "y of the nodes");
-    }
+    write_grid(file, fields.x, fields.y, "nodes");
     const hdf5::Handle group = create_group(file, "fields");
     add_attribute(group, "time", record.samples.back().time);
     const std::vector<hsize_t> shape = {fields.y.size(), fields.x.size()};

@@ -27,15 +27,14 @@ std::vector<BoundKey<P>> grid_keys() {
   };
 }
 
-std::vector<BoundKey<P>> start_of_rolls_keys() {
+std::vector<BoundKey<P>> transport_key() {
   return {
-      {{.section = "start",
-        .name = "roll_velocity",
-        .unit = "(epsilon/m)^(1/2)",
-        .meaning = "Largest velocity of the rolls at the start, in a fluid whose temperature is that of rest.",
-        .range = Range::above(0),
-        .default_text = "0.085 (hot - cold); a hundred-thousandth of that for growth rates"},
-       stored_in(&P::roll_velocity)},
+      {{.section = "fluid",
+        .name = "transport",
+        .type = Type::choice,
+        .meaning = "What is constant: \"dynamic\", eta and k; \"kinematic\", eta/rho and k/rho.",
+        .choices = names_of(grid::transport_names)},
+       stored_by_name_in(&P::transport, grid::transport_names)},
   };
 }
 
@@ -74,7 +73,9 @@ std::vector<BoundKey<P>> run_keys() {
 }  // namespace
 
 std::vector<BoundKey<P>> benard_grid_keys() {
-  return joined(cell_keys<P>(), convecting_fluid_keys<P>(), start_of_rolls_keys(), grid_keys(), run_keys());
+  return joined(cell_keys<P>(), convecting_fluid_keys<P>(Range::above(0), " There is no bulk viscosity."),
+                transport_key(), rolls_key<P>("; a hundred-thousandth of that for growth rates"), grid_keys(),
+                run_keys());
 }
 
 Schema benard_grid_schema() {

@@ -25,8 +25,32 @@ std::vector<BoundKey<Row>> weight_keys() {
 }
 
 template <class Row>
-std::vector<BoundKey<Row>> fluid_keys() {
+std::vector<BoundKey<Row>> bulk_viscosity_key() {
   return {
+      {{.section = "fluid",
+        .name = "bulk_viscosity",
+        .unit = "(m epsilon)^(1/2)/sigma",
+        .meaning = "Bulk viscosity of the constitutive law.",
+        .range = Range::at_least(0)},
+       stored_in(member_of<Row>(&Row::bulk_viscosity))},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> density_mean_key() {
+  return {
+      {{.section = "fluid",
+        .name = "density_mean",
+        .type = Type::choice,
+        .meaning = "The mean density of two particles in the gradients of velocity and temperature.",
+        .choices = names_of(spam::density_mean_names)},
+       stored_by_name_in(member_of<Row>(&Row::density_mean), spam::density_mean_names)},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> fluid_keys() {
+  const std::vector<BoundKey<Row>> state_and_viscosity = {
       {{.section = "fluid",
         .name = "equation_of_state",
         .type = Type::choice,
@@ -46,29 +70,20 @@ std::vector<BoundKey<Row>> fluid_keys() {
         .meaning = "Shear viscosity eta of the constitutive law.",
         .range = Range::at_least(0)},
        stored_in(member_of<Row>(&Row::viscosity))},
-      {{.section = "fluid",
-        .name = "bulk_viscosity",
-        .unit = "(m epsilon)^(1/2)/sigma",
-        .meaning = "Bulk viscosity of the constitutive law.",
-        .range = Range::at_least(0)},
-       stored_in(member_of<Row>(&Row::bulk_viscosity))},
+  };
+  const std::vector<BoundKey<Row>> conductivity = {
       {{.section = "fluid",
         .name = "conductivity",
         .unit = "k (epsilon/m)^(1/2)",
         .meaning = "Thermal conductivity of Fourier's law. The isentropic fluid has no temperature to conduct.",
         .range = Range::at_least(0)},
        stored_in(member_of<Row>(&Row::conductivity))},
-      {{.section = "fluid",
-        .name = "density_mean",
-        .type = Type::choice,
-        .meaning = "The mean density of two particles in the gradients of velocity and temperature.",
-        .choices = names_of(spam::density_mean_names)},
-       stored_by_name_in(member_of<Row>(&Row::density_mean), spam::density_mean_names)},
   };
+  return joined(state_and_viscosity, bulk_viscosity_key<Row>(), conductivity, density_mean_key<Row>());
 }
 
 template <class Row>
-std::vector<BoundKey<Row>> start_keys() {
+std::vector<BoundKey<Row>> disorder_key() {
   return {
       {{.section = "start",
         .name = "disorder",
@@ -77,6 +92,12 @@ std::vector<BoundKey<Row>> start_keys() {
                    "either way along each axis. 0: the perfect lattice.",
         .range = Range::at_least(0).at_most(0.5)},
        stored_in(member_of<Row>(&Row::disorder))},
+  };
+}
+
+template <class Row>
+std::vector<BoundKey<Row>> start_keys() {
+  const std::vector<BoundKey<Row>> noise_and_uniform = {
       {{.section = "start",
         .name = "noise",
         .unit = "epsilon",
@@ -91,6 +112,7 @@ std::vector<BoundKey<Row>> start_keys() {
         .choices = names_of(cases::uniform_start_names)},
        stored_by_name_in(member_of<Row>(&Row::uniform), cases::uniform_start_names)},
   };
+  return joined(disorder_key<Row>(), noise_and_uniform);
 }
 
 }  // namespace lucy::files

@@ -71,7 +71,8 @@ class ParticleElement {
   Handle value_;
 };
 
-void write_particles(hid_t particles, const std::string& name, double strain_rate, const FrameSpool& frames) {
+void write_particles(hid_t particles, const std::string& name, double strain_rate, const FrameSpool& frames,
+                     const std::array<bool, 2>& walled) {
   const Handle group = create_group(particles, name);
   const auto count = static_cast<hsize_t>(frames.count());
   const auto number = static_cast<hsize_t>(frames.particles());
@@ -114,7 +115,9 @@ void write_particles(hid_t particles, const std::string& name, double strain_rat
   const hsize_t two = 2;
   const Handle boundary_space(H5Screate_simple(1, &two, nullptr), H5Sclose);
   const Handle boundary(H5Acreate2(box, "boundary", boundary_type, boundary_space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  checked(H5Awrite(boundary, boundary_type, "periodicperiodic"));
+  std::string boundaries;
+  for (const bool walls : walled) boundaries += walls ? std::string("none\0\0\0\0", 8) : std::string("periodic");
+  checked(H5Awrite(boundary, boundary_type, boundaries.data()));
   const std::array<hsize_t, 3> edges_shape = {count, 2, 2};
   write_element(group, "box/edges", clock, edges_shape, edges, "rows: (L_x, 0) and (offset, L_y)");
 
@@ -132,7 +135,8 @@ void write_particles(hid_t particles, const std::string& name, double strain_rat
 
 void write_point_file(const std::filesystem::path& path, const H5mdAuthorship& authorship, double strain_rate,
                       std::span<const ReplicaFrames> replicas, const std::function<void(hid_t group)>& parameters,
-                      const std::function<void(hid_t group, std::size_t replica)>& observables) {
+                      const std::function<void(hid_t group, std::size_t replica)>& observables,
+                      const PointFileExtras& extras) {
   hdf5::write_file(path, [&](hid_t file) {
     const Handle root = create_group(file, "h5md");
     add_attribute<int>(root, "version", std::array<int, 2>{1, 1});
@@ -150,8 +154,9 @@ void write_point_file(const std::filesystem::path& path, const H5mdAuthorship& a
     for (const ReplicaFrames& one : replicas) {
       if (one.frames == nullptr || one.frames->count() == 0) continue;
       if (!particles) particles.emplace(create_group(file, "particles"));
-      write_particles(*particles, name(one), strain_rate, *one.frames);
+      write_particles(*particles, name(one), strain_rate, *one.frames, extras.walled);
     }
+    if (extras.further) extras.further(file);
   });
 }
 

@@ -90,10 +90,17 @@ struct ReplicaFrames {
   const FrameSpool* frames = nullptr;
 };
 
+/// What only some cases have.
+struct PointFileExtras {
+  std::array<bool, 2> walled{};                  ///< across x and y: walls, so that there are no periodic images
+  std::function<void(hid_t file)> further = {};  ///< writes groups of the case's own
+};
+
 /// /h5md, /parameters, /observables/replica_01 ... and, where there are frames, /particles/replica_01 ...
 /// `parameters` and `observables` fill groups that were made for them. Throws RunFailed with path and reason.
 void write_point_file(const std::filesystem::path& path, const H5mdAuthorship& authorship, double strain_rate,
                       std::span<const ReplicaFrames> replicas, const std::function<void(hid_t group)>& parameters,
-                      const std::function<void(hid_t group, std::size_t replica)>& observables);
+                      const std::function<void(hid_t group, std::size_t replica)>& observables,
+                      const PointFileExtras& extras = {});
 
 }  // namespace lucy::files

@@ -62,7 +62,7 @@ std::string lists_text(const Key& key) {
     case Lists::none:
       return "";
     case Lists::multiply:
-      return ", or a list of such numbers (lists multiply)";
+      return fmt::format(", or a list of such {} (lists multiply)", key.type == Type::choice ? "words" : "numbers");
     case Lists::one_per_entry:
       return fmt::format(", or a list with one such number per entry of {}", key.entries_of);
   }

@@ -171,7 +171,7 @@ std::optional<Value> single_value(const toml::node& node) {
 
 std::string with_lists(const Key& key) {
   if (key.lists == Lists::none) return accepted_text(key);
-  return accepted_text(key) + ", or a list of such numbers";
+  return fmt::format("{}, or a list of such {}", accepted_text(key), key.type == Type::choice ? "words" : "numbers");
 }
 
 Value checked_node(const Key& key, const toml::node& node, const Origin& origin, std::string_view is = "is") {

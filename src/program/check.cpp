@@ -23,6 +23,8 @@
 #include "lucy/files/all_inputs.hpp"
 #include "lucy/files/benard_grid_input.hpp"
 #include "lucy/files/benard_grid_text.hpp"
+#include "lucy/files/benard_input.hpp"
+#include "lucy/files/benard_text.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/isomorphism_input.hpp"
@@ -33,6 +35,7 @@
 #include "lucy/files/wave_text.hpp"
 #include "lucy/measure/correlator.hpp"
 #include "program/benard_grid_point.hpp"
+#include "program/benard_point.hpp"
 #include "program/commands.hpp"
 #include "program/couette_point.hpp"
 #include "program/green_kubo_point.hpp"
@@ -149,6 +152,19 @@ std::vector<std::vector<std::string>> rows_of(const files::WaveInput& input) {
   return table;
 }
 
+std::vector<std::vector<std::string>> rows_of(const files::BenardInput& input) {
+  std::vector<std::vector<std::string>> table = {
+      {"", "fluid", "viscosity", "conductivity", "step", "equilibration", "duration", "replicas", "samples every"}};
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const cases::BenardPoint point = cases::resolved(input.points[i]);
+    table.push_back({fmt::format("{}", i + 1), files::benard_label(point), format_plain(*point.viscosity),
+                     format_plain(*point.conductivity), format_plain(point.step), format_plain(point.equilibration),
+                     format_plain(point.duration), fmt::format("{}", point.replicas),
+                     format_plain(cases::sample_steps(point) * point.step)});
+  }
+  return table;
+}
+
 std::vector<std::vector<std::string>> rows_of(const files::BenardGridInput& input) {
   std::vector<std::vector<std::string>> table = {
       {"", "fluid", "find", "viscosity", "conductivity", "step", "duration at most"}};
@@ -250,6 +266,21 @@ Planned planned(const cases::WavePoint& point) {
   measurable.duration = 1e6 * measurable.sample_interval;
   measurable.particles = std::min(point.particles, most_particles);
   return {std::make_unique<WaveStatePoint>(point), std::make_unique<WaveStatePoint>(measurable)};
+}
+
+Planned planned(const cases::BenardPoint& point) {
+  cases::BenardPoint measurable = cases::resolved(point);
+  if (point.particles > most_particles) {
+    measurable.height = std::floor(std::sqrt(0.5 * static_cast<double>(most_particles)));
+    measurable.width = 2.0 * measurable.height;
+    measurable.particles = std::llround(measurable.height * *measurable.width);
+  }
+  measurable.rayleigh.reset();  // its viscosity and conductivity are known
+  measurable.sample_interval = std::min(cases::sample_steps(point), most_steps) * point.step;
+  measurable.equilibration = 0.0;
+  measurable.duration = 1e6 * measurable.sample_interval;
+  measurable.frame_interval = 0.0;
+  return {std::make_unique<BenardStatePoint>(point), std::make_unique<BenardStatePoint>(measurable)};
 }
 
 Planned planned(const cases::BenardGridPoint& point) {
@@ -409,6 +440,20 @@ DiskUse predict_disk_use(const files::GreenKuboInput& input, double /*state_byte
   return use;
 }
 
+DiskUse predict_disk_use(const files::BenardInput& input, double state_bytes, bool /*at_most*/) {
+  DiskUse use{picture_bytes * static_cast<double>(input.points.size()), 0.0};
+  for (const auto& point : input.points) {
+    const auto particles = static_cast<double>(point.particles);
+    const double samples = static_cast<double>(cases::interval_count(point)) * sizeof(cases::BenardSample);
+    const auto cells = static_cast<double>(cases::field_cells(point).size());
+    // Positions, two velocities, density and temperature of the last state; six fields; steps and times of the samples.
+    use.results += particles * 64.0 + cells * 48.0 + point.replicas * (1.25 * samples + 2.0 * hdf5_bytes);
+    use.checkpoints += 2.0 * point.replicas * (particles * state_bytes + samples);
+    add_frames(use, point.particles, point.frame_interval, point.equilibration + point.duration);
+  }
+  return use;
+}
+
 DiskUse predict_disk_use(const files::BenardGridInput& input, double state_bytes, bool /*at_most*/) {
   DiskUse use{picture_bytes * static_cast<double>(input.points.size()), 0.0};
   for (const auto& point : input.points) {
@@ -529,6 +574,8 @@ int check(const InputRequest& request, std::optional<files::InputKind> kind) {
       return predict(files::read_shear_flow(request.input, request.overrides), {});
     case files::InputKind::shear_wave:
       return predict(files::read_wave(cases::WaveQuantity::shear, request.input, request.overrides), {});
+    case files::InputKind::benard:
+      return predict(files::read_benard(request.input, request.overrides), {});
     case files::InputKind::benard_grid:
       return predict(files::read_benard_grid(request.input, request.overrides), {});
     case files::InputKind::temperature_wave:

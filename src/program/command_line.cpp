@@ -46,10 +46,12 @@ constexpr std::string_view short_help =
     "  lucy shear-flow INPUT [--out DIR] [--set ...]...    viscous fluids of smooth particles under shear\n"
     "  lucy shear-wave INPUT [--out DIR] [--set ...]...    decaying waves: what viscosity particles have, and why\n"
     "  lucy temperature-wave INPUT [--out DIR] ...         the same of thermal diffusivity\n"
-    "  lucy benard-grid INPUT [--out DIR] [--set ...]...   convection of a continuum between hot and cold walls\n"
+    "  lucy benard INPUT [--out DIR] [--set ...]...        convection of smooth particles between hot and cold walls\n"
+    "  lucy benard-grid INPUT [--out DIR] [--set ...]...   the same of a continuum, on meshes\n"
     "  lucy check INPUT [--set key=value]...               say what any of these would do and cost\n"
     "  lucy compare TABLE --with NAME                      a table beside a published one\n"
     "  lucy viscosity SWEEP... GREEN-KUBO                  both routes and print side by side\n"
+    "  lucy benard-compare DIR... [--out DIR]              convection by particles, grid and print side by side\n"
     "  lucy fields FILE.h5 [--frame N] [--out DIR]         a saved state as fields on a grid\n"
     "  lucy explain [KEY]                                  the keys of an input file\n"
     "\n"
@@ -277,6 +279,15 @@ int run_program(int argument_count, const char* const* argument_values) {
       "\nExample:\n"
       "  lucy temperature-wave inputs/temperature_wave.toml");
 
+  auto* benard_command = program.add_subcommand(
+      "benard", "Convection of smooth particles between a hot floor and a cold ceiling: kinetic energies, heat flux");
+  add_input(benard_command);
+  benard_command->footer(
+      "\nInterrupted, the same command resumes and ends with the same bits.\n"
+      "\nExamples:\n"
+      "  lucy benard inputs/benard_quick.toml\n"
+      "  lucy benard inputs/benard_ra10000.toml --set fluid.rayleigh=20000 --out runs/ra20000");
+
   auto* benard_grid_command = program.add_subcommand(
       "benard-grid", "Convection of a continuum between a hot floor and a cold ceiling, extrapolated over meshes");
   add_input(benard_grid_command);
@@ -290,6 +301,7 @@ int run_program(int argument_count, const char* const* argument_values) {
   add_input(check_command);
   check_command->footer(
       "\nWithout --for, a file is taken for an input of the command whose sections it writes:\n"
+      "  [cell], with [system]                benard\n"
       "  [cell] or [grid]                     benard-grid\n"
       "  [isentropic]                         isomorphism\n"
       "  [fluid] or [start], with [shear]     shear-flow\n"
@@ -315,14 +327,16 @@ int run_program(int argument_count, const char* const* argument_values) {
     };
     command->add_option_function<std::string>("--for", choose, text)->type_name("COMMAND");
   };
-  add_kind(check_command,
-           "sweep, green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave or benard-grid; default: by the "
-           "sections of the file, as told below");
+  add_kind(
+      check_command,
+      "sweep, green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave, benard or benard-grid; default: by "
+      "the sections of the file, as told below");
 
   auto* explain_command = program.add_subcommand("explain", "Print the keys of an input file");
   std::string filter;
   add_kind(explain_command,
-           "sweep (the default), green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave or benard-grid");
+           "sweep (the default), green-kubo, isomorphism, shear-flow, shear-wave, temperature-wave, benard or "
+           "benard-grid");
   explain_command->add_option("KEY", filter, "A section (run) or a key (run.step); default: all of them");
   explain_command->set_help_flag("-h,--help", "This text");
   explain_command->footer(
@@ -360,6 +374,28 @@ int run_program(int argument_count, const char* const* argument_values) {
   viscosity_command->set_help_flag("-h,--help", "This text");
   viscosity_command->footer(
       "\nExample:\n  lucy viscosity runs/posch1995_table1 runs/posch1995_table2 runs/posch1995_green_kubo");
+
+  auto* benard_compare_command =
+      program.add_subcommand("benard-compare", "Convection by particles, on the grid and in print side by side");
+  BenardCompareRequest convection;
+  std::string effective;
+  benard_compare_command
+      ->add_option("DIRECTORY", convection.directories, "Directories of benard and benard-grid runs, in any order")
+      ->required();
+  benard_compare_command
+      ->add_option("--published", published, "CSV file of published kinetic energies; default: the one that Lucy has")
+      ->type_name("FILE");
+  benard_compare_command
+      ->add_option("--effective", effective, "Directory of a benard-grid run with the coefficients that particles have")
+      ->type_name("DIR");
+  benard_compare_command
+      ->add_option("--out", out, "Directory of the results; default: the first one of particles that is given")
+      ->type_name("DIR");
+  benard_compare_command->set_help_flag("-h,--help", "This text");
+  benard_compare_command->footer(
+      "\nA flow on the grid belongs to particles of the same fluid, sides, temperatures and Rayleigh number. With\n"
+      "effective coefficients it has another one: those belong to particles of the same cell in the order of Ra.\n"
+      "\nExample:\n  lucy benard-compare runs/benard_ra10000 runs/benard_grid");
 
   auto* fields_command = program.add_subcommand("fields", "A saved state as fields on a grid, and their spectra");
   FieldsRequest fields_request;
@@ -404,9 +440,9 @@ int run_program(int argument_count, const char* const* argument_values) {
   return tell_errors([&] {
     request.input = input;
     if (!out.empty()) request.out = out;
-    for (const auto* command :
-         {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command, shear_wave_command,
-          temperature_wave_command, benard_grid_command, check_command, viscosity_command, fields_command})
+    for (const auto* command : {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command,
+                                shear_wave_command, temperature_wave_command, benard_command, benard_grid_command,
+                                check_command, viscosity_command, benard_compare_command, fields_command})
       if (out.empty() && command->count("--out") > 0) throw BadInput("--out is empty where a directory is expected");
     if (sweep_command->parsed()) return sweep(request);
     if (green_kubo_command->parsed()) {
@@ -437,6 +473,7 @@ int run_program(int argument_count, const char* const* argument_values) {
     if (shear_flow_command->parsed()) return shear_flow(request);
     if (shear_wave_command->parsed()) return wave(request, cases::WaveQuantity::shear);
     if (temperature_wave_command->parsed()) return wave(request, cases::WaveQuantity::temperature);
+    if (benard_command->parsed()) return benard(request);
     if (benard_grid_command->parsed()) return benard_grid(request);
     if (check_command->parsed()) return check(request, kind);
     if (explain_command->parsed()) return explain(filter, kind.value_or(files::InputKind::sweep));
@@ -444,6 +481,12 @@ int run_program(int argument_count, const char* const* argument_values) {
       if (results.size() < 2)
         throw BadInput("lucy viscosity needs the directory of a sweep and that of a Green-Kubo run, in this order");
       return viscosity(std::span(results).first(results.size() - 1), results.back(), request.out);
+    }
+    if (benard_compare_command->parsed()) {
+      if (!published.empty()) convection.published = published;
+      if (!effective.empty()) convection.effective = effective;
+      convection.out = request.out;
+      return benard_compare(convection);
     }
     if (fields_command->parsed()) {
       if (fields_command->count("--frame") > 0) fields_request.frame = frame;

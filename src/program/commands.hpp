@@ -44,6 +44,10 @@ int shear_flow(const InputRequest& request);
 /// companions (wave.cpp).
 int wave(const InputRequest& request, cases::WaveQuantity quantity);
 
+/// Lets smooth particles convect between a hot floor and a cold ceiling, or goes on with it; writes benard.csv and its
+/// companions (benard.cpp).
+int benard(const InputRequest& request);
+
 /// Lets a continuum convect between a hot floor and a cold ceiling, mesh by mesh, or goes on with it; writes
 /// benard_grid.csv and its companions (benard_grid.cpp).
 int benard_grid(const InputRequest& request);
@@ -72,6 +76,18 @@ int green_kubo_series(const SeriesRequest& request);
 /// or their table.csv and viscosity.csv. `out`: where the files go, default the Green-Kubo directory.
 int viscosity(std::span<const std::filesystem::path> sweeps, const std::filesystem::path& green_kubo,
               const std::optional<std::filesystem::path>& out);
+
+/// Results of convection to be laid side by side.
+struct BenardCompareRequest {
+  std::vector<std::filesystem::path> directories;       ///< of benard and of benard-grid runs, in any order
+  std::optional<std::filesystem::path> published = {};  ///< default: the file that comes with Lucy
+  std::optional<std::filesystem::path> effective = {};  ///< a benard-grid run with effective coefficients
+  std::optional<std::filesystem::path> out = {};        ///< default: the first directory of particles
+};
+
+/// Convection by particles beside that of the continuum and beside print; writes benard_compare.csv
+/// (benard_compare.cpp).
+int benard_compare(const BenardCompareRequest& request);
 
 /// Which state of which file becomes fields, and how.
 struct FieldsRequest {

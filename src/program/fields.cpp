@@ -155,6 +155,11 @@ std::string heading(const FieldsRequest& request, const cases::FieldSettings& se
 int fields(const FieldsRequest& request) {
   refuse_contradictions(request);
   const files::H5mdReader reader(request.file, request.replica);
+  if (reader.word("wall"))
+    throw BadInput(
+        fmt::format("{} is of particles between walls, near which fields from particles alone would be wrong; those "
+                    "averaged over time, walls and all, are in the file itself, under /fields",
+                    request.file.string()));
   const auto frames = chosen_frames(request, reader);
   cases::FieldSettings settings = settings_of(request, reader);
   const auto box = reader.frame(frames.front()).box;

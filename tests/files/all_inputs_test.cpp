@@ -13,6 +13,7 @@
 
 #include "input_folder.hpp"
 #include "lucy/files/benard_grid_input.hpp"
+#include "lucy/files/benard_input.hpp"
 #include "lucy/files/green_kubo_input.hpp"
 #include "lucy/files/input.hpp"
 #include "lucy/files/isomorphism_input.hpp"
@@ -43,6 +44,8 @@ std::string resolved(InputKind kind, const std::filesystem::path& file, const Ov
       return shear_flow_resolved_toml(read_shear_flow(file, overrides));
     case InputKind::shear_wave:
       return wave_resolved_toml(read_wave(cases::WaveQuantity::shear, file, overrides));
+    case InputKind::benard:
+      return benard_resolved_toml(read_benard(file, overrides));
     case InputKind::benard_grid:
       return benard_grid_resolved_toml(read_benard_grid(file, overrides));
     case InputKind::temperature_wave:
@@ -61,6 +64,8 @@ class EveryInput : public testing::InputFolder, public ::testing::WithParamInter
   /// Has what the command requires, [run] in the end.
   std::string minimal() const {
     if (kind() == InputKind::benard_grid) return "[fluid]\nrayleigh = 5000\n[grid]\ncells = 8\n[run]\nduration = 100\n";
+    if (kind() == InputKind::benard)
+      return "[system]\nparticles = 200\n[fluid]\nrayleigh = 5000\n[run]\nduration = 100\n";
     std::string text = "[system]\nparticles = 144\n";
     const Schema known = schema();
     if (const Key* key = known.find("system.energy_per_particle"); key != nullptr && key->required)
@@ -190,6 +195,9 @@ TEST_F(KindOfInput, IsKnownOfTheShippedFiles) {
                                                                 {"isomorphism.toml", InputKind::isomorphism},
                                                                 {"shear_flow.toml", InputKind::shear_flow},
                                                                 {"shear_wave.toml", InputKind::shear_wave},
+                                                                {"benard_quick.toml", InputKind::benard},
+                                                                {"benard_800.toml", InputKind::benard},
+                                                                {"benard_walls.toml", InputKind::benard},
                                                                 {"benard_grid.toml", InputKind::benard_grid},
                                                                 {"benard_critical.toml", InputKind::benard_grid}};
   for (const auto& [file, kind] : files) EXPECT_EQ(kind_of_input(shipped / file), kind) << file;
@@ -207,6 +215,10 @@ TEST_F(KindOfInput, FollowsFromSectionsPointTablesAndOverrides) {
   EXPECT_EQ(kind("[shear]\n[start]\n"), InputKind::shear_flow);
   EXPECT_EQ(kind("[fluid]\n[grid]\n"), InputKind::benard_grid);
   EXPECT_EQ(kind("[fluid]\n", {"cell.side=1"}), InputKind::benard_grid);
+  EXPECT_EQ(kind("[cell]\n[system]\n"), InputKind::benard);
+  EXPECT_EQ(kind("[cell]\n", {"system.particles=8"}), InputKind::benard);
+  EXPECT_EQ(kind("[cell]\n[[point]]\nparticles = 8\n"), InputKind::benard);
+  EXPECT_EQ(kind("[fluid]\n[[point]]\nparticles = 8\nwall = \"mirror-images\"\n"), InputKind::benard);
   EXPECT_EQ(kind_of_input(folder_ / "none.toml"), InputKind::green_kubo);  // which is to tell why
 }
 

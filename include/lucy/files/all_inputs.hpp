@@ -17,16 +17,17 @@
 namespace lucy::files {
 
 /// The commands that read an input file.
-enum class InputKind { sweep, green_kubo, isomorphism, shear_flow, shear_wave, temperature_wave, benard_grid };
+enum class InputKind { sweep, green_kubo, isomorphism, shear_flow, shear_wave, temperature_wave, benard, benard_grid };
 
 /// As typed.
-inline constexpr std::array<std::pair<std::string_view, InputKind>, 7> command_names = {
+inline constexpr std::array<std::pair<std::string_view, InputKind>, 8> command_names = {
     {{"sweep", InputKind::sweep},
      {"green-kubo", InputKind::green_kubo},
      {"isomorphism", InputKind::isomorphism},
      {"shear-flow", InputKind::shear_flow},
      {"shear-wave", InputKind::shear_wave},
      {"temperature-wave", InputKind::temperature_wave},
+     {"benard", InputKind::benard},
      {"benard-grid", InputKind::benard_grid}}};
 
 Schema schema_of(InputKind kind);
@@ -35,9 +36,9 @@ Schema schema_of(InputKind kind);
 std::vector<std::string> commands_with(std::string_view section, std::string_view name);
 
 /// Whose input a file is, by the sections that it, its [[point]] tables and the overrides write: [cell] or [grid] is of
-/// benard-grid; [isentropic] of isomorphism; [wave], or [fluid] or [start] without [shear], of a wave; [fluid] or
-/// [start] with [shear] of shear-flow; [shear] without [correlation] of a sweep; anything else of green-kubo. A wave's
-/// input is that of the only command that accepts it; throws BadInput when both do, or none.
+/// benard-grid, with [system] of benard; [isentropic] of isomorphism; [wave], or [fluid] or [start] without [shear], of
+/// a wave; [fluid] or [start] with [shear] of shear-flow; [shear] without [correlation] of a sweep; anything else of
+/// green-kubo. A wave's input is that of the only command that accepts it; throws BadInput when both do, or none.
 InputKind kind_of_input(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 }  // namespace lucy::files

@@ -7,6 +7,7 @@
 //     strain_rate         number; without it the particles are not sheared
 //     kernel, range       name of the weight function (kernel::weight_names) and its range h
 //     equation_of_state   name (spam::equation_of_state_names); without it the particles are atoms
+//     wall                name (space::wall_kind_names) of what is behind walls; without it the box is periodic
 #pragma once
 
 #include <cstdint>
