@@ -21,7 +21,7 @@ namespace {
 using Trajectory = motion::FluidTrajectory<2>;
 
 constexpr int usual_sample_steps = 10;
-constexpr double longest_step = 2.0;
+constexpr double longest_step = 1.0;
 constexpr std::size_t most_blocks = 16;
 constexpr int floor_wall = space::wall_number(1, false);
 constexpr int ceiling_wall = space::wall_number(1, true);
@@ -270,7 +270,8 @@ struct BenardRun::Implementation {
     sample.instants[benard_instant("temperature_largest")] = largest_temperature;
     if (const std::int64_t averaged = done - equilibration_intervals(point); averaged >= 0) {
       const std::int64_t all = interval_count(point) - equilibration_intervals(point);
-      const auto block = static_cast<std::size_t>(averaged * static_cast<std::int64_t>(record.blocks.size()) / all);
+      const auto blocks = static_cast<std::int64_t>(record.blocks.size());
+      const auto block = static_cast<std::size_t>(std::min(averaged * blocks / all, blocks - 1));
       record.blocks[block].add(moments.points);
       record.block_samples[block] += 1.0;
     }

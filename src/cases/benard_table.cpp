@@ -51,6 +51,20 @@ double value_of(const BenardSample& sample, std::size_t quantity) {
   return place < benard_averages.size() ? sample.averages[place] : sample.instants[place - benard_averages.size()];
 }
 
+/// Without an error of these a row is too short. Of the others, extremes over particles among them, some may drift.
+bool decides_status(std::size_t quantity) {
+  switch (quantity) {
+    case benard_quantity("kinetic_energy_total"):
+    case benard_quantity("kinetic_energy_smoothed"):
+    case benard_quantity("kinetic_energy_field"):
+    case benard_quantity("nusselt_hot"):
+    case benard_quantity("nusselt_cold"):
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// What was recorded after the equilibration that was asked for.
 std::vector<BenardRecord> after_equilibration(const BenardPoint& point, std::span<const BenardRecord> replicas) {
   const auto skip = static_cast<std::size_t>(equilibration_intervals(point));
@@ -127,14 +141,14 @@ std::vector<std::string> warnings_of(const BenardPoint& point, const BenardRow& 
         spread.chi_squared, spread.degrees_of_freedom, spread.degrees_of_freedom == 1 ? "" : "s", spread.p_value));
   const double stored = row[benard_quantity("stored")].value;
   const double given = row[benard_quantity("nusselt_hot")].value;
-  if (std::abs(stored) > 0.05 * std::abs(given))
+  if (row.failure.empty() && std::abs(stored) > 0.05 * std::abs(given))
     warnings.push_back(
         fmt::format("the fluid stores {:.2g} of the heat that the floor gives: the flow is not steady yet; lengthen "
                     "run.equilibration",
                     stored / given));
   const double total = row[benard_quantity("kinetic_energy_total")].value;
   const double field = row[benard_quantity("kinetic_energy_field")].value;
-  if (field < frozen_share * total)
+  if (row.failure.empty() && field < frozen_share * total)
     warnings.push_back(
         fmt::format("nothing flows: the particles' own motion apart, the kinetic energy is {:.1g} per mass", field));
   return warnings;
@@ -176,7 +190,7 @@ BenardRow summarize(const BenardPoint& point, std::span<const BenardRecord> all_
     if (!record.failure.empty() && row.failure.empty()) row.failure = record.failure;
   }
   statistics::ReplicaSpread spread = {not_a_number, 0, not_a_number};
-  bool all_known = false;
+  bool known = false;
   if (any_sample(averaged)) {
     const std::vector<std::size_t> cuts = equilibration_cuts(std::span(averaged), kinetic_energy);
     row.equilibration_discarded = discarded_time(std::span(averaged), std::span(cuts));
@@ -184,16 +198,16 @@ BenardRow summarize(const BenardPoint& point, std::span<const BenardRecord> all_
       return series_of(std::span(averaged), std::span(cuts),
                        [quantity](const BenardSample& sample) { return value_of(sample, quantity); });
     };
-    all_known = true;
+    known = true;
     for (std::size_t q = 0; q < row.estimates.size(); ++q) {
       row.estimates[q] =
           q == benard_quantity("kinetic_energy_field") ? field_energy(replicas) : statistics::pooled_mean(series(q));
-      all_known = all_known && !std::isnan(row.estimates[q].error);
+      if (decides_status(q)) known = known && !std::isnan(row.estimates[q].error);
     }
     row.effective_samples = row[benard_quantity("kinetic_energy_total")].effective_samples;
     spread = statistics::replica_spread(series(benard_quantity("kinetic_energy_total")));
   }
-  row.status = !row.failure.empty() ? RowStatus::failed : all_known ? RowStatus::ok : RowStatus::too_short;
+  row.status = !row.failure.empty() ? RowStatus::failed : known ? RowStatus::ok : RowStatus::too_short;
   row.warnings = warnings_of(point, row, spread, all_replicas.size());
   return row;
 }

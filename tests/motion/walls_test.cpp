@@ -247,7 +247,7 @@ TEST(FluidBetweenWalls, RatesEqualTheSumsInOneAndInThreeDimensions) {
     auto box = walls_across<3>(kind, {0, 2});
     (*box.across[2])[1] = {{}, 0.6, {}};
     (*box.across[0])[0] = {{}, 1.0, {0.0, 0.0, -0.08}};
-    auto thick = flow<3>(gas<3>(all_transport, 1.8), noisy_lattice<3>({5.0, 4.0, 5.0}, box, 16));
+    auto thick = flow<3>(gas<3>(all_transport, 1.8), noisy_lattice<3>({6.0, 4.0, 6.0}, box, 16));
     for (int step = 0; step < 4; ++step) {
       expect_slow_rates(thin);
       expect_slow_rates(thick);
@@ -510,8 +510,8 @@ TEST(FluidBetweenWalls, GoesOnFromASavedStateWithTheSameBits) {
     EXPECT_TRUE(reader.exhausted());
     EXPECT_EQ(whole.positions(), resumed.positions());
     EXPECT_EQ(whole.densities(), resumed.densities());
-    EXPECT_EQ(whole.gradients(), resumed.gradients());
     for (auto* trajectory : {&whole, &resumed}) trajectory->renew_list(0.1);
+    EXPECT_EQ(whole.gradients(), resumed.gradients());
     expect_same_bits(whole, resumed);
     for (auto* trajectory : {&whole, &resumed}) run(*trajectory, 5.0, 0.1);
     expect_same_bits(whole, resumed);
@@ -547,7 +547,8 @@ TEST(FluidBetweenWalls, AStateIsTheSameAfterItsListIsRenewed) {
     trajectory.renew_list(0.1);
     EXPECT_EQ(trajectory.positions(), position);
     EXPECT_EQ(trajectory.densities(), density);
-    EXPECT_EQ(trajectory.gradients(), gradients);
+    const auto gradients_again = trajectory.gradients();  // a pass of their own, with other additions in another order
+    for (std::size_t i = 0; i < gradients.size(); ++i) EXPECT_NEAR(gradients_again[i], gradients[i], 1e-12);
     EXPECT_EQ(trajectory.energy_rates(), energy_rates);
     const auto again = trajectory.power_of_walls();
     for (std::size_t wall = 0; wall < 4; ++wall) {

@@ -69,7 +69,7 @@ BenardPoint resolved(const BenardPoint& point);
 
 /// Refuses (BadInput, one sentence naming the key, the value and what is accepted) what validate(Convection) refuses; a
 /// cell whose area is not the number of particles, or that no square lattice fits; one too small for the range; fluids
-/// that are no fluids at these temperatures; steps above 2; and intervals that are no whole numbers of steps.
+/// that are no fluids at these temperatures; steps above 1; and intervals that are no whole numbers of steps.
 void validate(const BenardPoint& point);
 
 int sample_steps(const BenardPoint& point);
