@@ -33,7 +33,7 @@ namespace {
 using namespace lucy;
 namespace fs = std::filesystem;
 
-constexpr double evaluations_in_all = 2e7;  // particles times force evaluations of one timing
+constexpr double evaluations_in_all = 4e6;  // particles times force evaluations of one timing
 constexpr double step = 0.05;
 constexpr double watched_time = 100.0;  // over which the energy error is the largest
 constexpr std::array<double, 2> energy_errors = {1e-5, 1e-6};

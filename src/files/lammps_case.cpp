@@ -24,14 +24,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int entries = 16000;
-constexpr double innermost = 1e-6;  // particles overlap; LAMMPS stops where one pair is nearer than this
-constexpr double longest_between_rows = 0.1;
+constexpr double innermost = 1e-6;            // particles overlap; LAMMPS stops where one pair is nearer than this
+constexpr double longest_between_rows = 0.2;  // the fast part of the stress correlation dies within two time units
 
 // A neighbour list of LAMMPS is made anew after a fixed number of steps, for its own test counts the motion of the
 // box's corners and asks for a new list in every step of a sheared run. In between two particles may approach each
-// other by the skin: at this speed, seven times the typical relative one at E = N.
+// other by the skin, at this speed in units of the typical relative one, (2 kT)^(1/2).
 constexpr double skin = 1.5;
-constexpr double fastest_approach = 10.0;
+constexpr double fastest_approach = 7.0;
+
+int steps_between_lists(const LammpsCase& one) {
+  double start = 0.0;
+  for (const double p : one.start.momentum) start += 0.5 * p * p / static_cast<double>(one.point.particles);
+  const double speed = fastest_approach * std::sqrt(2.0 * std::max(start, one.temperature));
+  return std::clamp(static_cast<int>(skin / (speed * one.point.step)), 1, 20);
+}
 
 /// `text` with every @name@ replaced.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
@@ -213,10 +220,7 @@ std::string table_text(const kernel::Lucy<2>& kernel, const std::string& title) 
 }  // namespace
 
 int series_steps(const cases::CouettePoint& point) {
-  const int sample = cases::sample_steps(point);
-  int steps = std::clamp(static_cast<int>(longest_between_rows / point.step * (1.0 + 1e-9)), 1, sample);
-  while (sample % steps != 0) --steps;
-  return steps;
+  return std::max(1, static_cast<int>(longest_between_rows / point.step * (1.0 + 1e-9)));
 }
 
 std::int64_t lammps_steps(const cases::CouettePoint& point) {
@@ -233,22 +237,21 @@ void write_lammps_case(const fs::path& folder, const LammpsCase& one) {
   std::string columns;
   for (const auto name : cases::observables) columns += (columns.empty() ? "" : " ") + std::string(name);
 
-  std::map<std::string, std::string, std::less<>> values = {
-      {"title", title},
-      {"columns", columns},
-      {"entries", fmt::format("{}", entries)},
-      {"range", number(point.range)},
-      {"twice_amplitude", number(2.0 * amplitude)},
-      {"minus_amplitude", number(-amplitude)},
-      {"step", number(point.step)},
-      {"steps", fmt::format("{}", lammps_steps(point))},
-      {"every", fmt::format("{}", series_steps(point))},
-      {"rate", number(point.strain_rate)},
-      {"temperature", number(one.temperature)},
-      {"relaxation", number(point.relaxation_time)},
-      {"skin", number(skin)},
-      {"rebuild", fmt::format("{}", std::max(1, static_cast<int>(skin / (fastest_approach * point.step) + 1e-9)))},
-      {"system", std::string(system_part)}};
+  std::map<std::string, std::string, std::less<>> values = {{"title", title},
+                                                            {"columns", columns},
+                                                            {"entries", fmt::format("{}", entries)},
+                                                            {"range", number(point.range)},
+                                                            {"twice_amplitude", number(2.0 * amplitude)},
+                                                            {"minus_amplitude", number(-amplitude)},
+                                                            {"step", number(point.step)},
+                                                            {"steps", fmt::format("{}", lammps_steps(point))},
+                                                            {"every", fmt::format("{}", series_steps(point))},
+                                                            {"rate", number(point.strain_rate)},
+                                                            {"temperature", number(one.temperature)},
+                                                            {"relaxation", number(point.relaxation_time)},
+                                                            {"skin", number(skin)},
+                                                            {"rebuild", fmt::format("{}", steps_between_lists(one))},
+                                                            {"system", std::string(system_part)}};
   const auto write = [&](const std::string& name, const std::string& heat, std::string_view pair,
                          std::string_view script) {
     values["name"] = name;
@@ -319,9 +322,10 @@ LammpsSeries read_lammps_series(const fs::path& path) {
 }
 
 cases::CouetteRecord record_of(const LammpsSeries& series, const cases::CouettePoint& point) {
-  const int rows = cases::sample_steps(point) / series_steps(point);
+  const int between = series_steps(point);
+  const int rows = std::max(1, cases::sample_steps(point) / between);
   cases::CouetteRecord record;
-  record.sample_interval = cases::sample_steps(point) * point.step;
+  record.sample_interval = rows * between * point.step;
   record.worst_energy_error = std::numeric_limits<double>::quiet_NaN();
   record.steps = lammps_steps(point);
   const double from = point.equilibration + 0.5 * point.step;

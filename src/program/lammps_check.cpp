@@ -62,7 +62,7 @@ constexpr double parting_distance = 0.01;
 constexpr double parting_tolerance = 0.15;
 constexpr double longest_together = 300.0;
 constexpr double heat_tolerance = 2e-3;  // work by trapezoids between rows of a series, an integrator with a step
-constexpr double free_durations = 4.0;   // a run at constant energy is so many times as long as the input's
+constexpr double free_durations = 3.0;   // a run at constant energy is so many times as long as the input's
 constexpr double flip_durations = 0.1;   // a run with box flips
 constexpr double prepared_time = 21.3;   // of single points: a tilt of no round number
 
@@ -186,6 +186,7 @@ class Check {
     result.lines.push_back(heat);
 
     CouettePoint brief = point;
+    brief.equilibration = flip_durations * point.equilibration;
     brief.duration = flip_durations * point.duration;
     const fs::path flips = case_of(name + "_with_flips", brief, start, temperature);
     run_lammps({flips, "sheared", {{"flip", "yes"}}});

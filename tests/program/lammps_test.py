@@ -136,7 +136,7 @@ class Run(LammpsTest):
     def test_a_series_is_what_green_kubo_takes(self):
         self.export("--set", "shear.strain_rate=0", "--set", "run.duration=2000")
         self.lammps("run", "x")
-        process = self.lucy("green-kubo", "--from-series", "x/point_001/nve_series.dat", "--interval", "0.1",
+        process = self.lucy("green-kubo", "--from-series", "x/point_001/nve_series.dat", "--interval", "0.2",
                             "--volume", "144", "--temperature", "0.54", "--out", "gk", "--no-pictures")
         self.assertEqual(process.returncode, 0, process.stderr)
 

@@ -50,8 +50,7 @@ struct TableError {
 };
 TableError table_error(const kernel::Lucy<2>& kernel, double density);
 
-/// Steps between the rows of a series: a divisor of cases::sample_steps, a tenth of a time unit or less (one step, if
-/// that is longer).
+/// Steps between the rows of a series: a fifth of a time unit or less (one step, if that is longer).
 int series_steps(const cases::CouettePoint& point);
 
 /// Steps of a whole run, equilibration included.
@@ -68,8 +67,8 @@ struct LammpsSeries {
 /// Throws BadInput when the file cannot be read or lacks a column.
 LammpsSeries read_lammps_series(const std::filesystem::path& path);
 
-/// The same as a replica's record: rows after the point's equilibration, averaged over sample intervals. The energy
-/// error of a step is not known (nan).
+/// The same as a replica's record: rows after the point's equilibration, averaged over about the point's sample
+/// interval. The energy error of a step is not known (nan).
 cases::CouetteRecord record_of(const LammpsSeries& series, const cases::CouettePoint& point);
 
 /// What a single point printed, and the forces of its dump. `name`: "single_point" or "exact_point". Throws BadInput
