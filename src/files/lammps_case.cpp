@@ -27,10 +27,11 @@ constexpr int entries = 16000;
 constexpr double innermost = 1e-6;            // particles overlap; LAMMPS stops where one pair is nearer than this
 constexpr double longest_between_rows = 0.2;  // the fast part of the stress correlation dies within two time units
 
-// A neighbour list of LAMMPS is made anew after a fixed number of steps, for its own test counts the motion of the
-// box's corners and asks for a new list in every step of a sheared run. In between two particles may approach each
-// other by the skin, at this speed in units of the typical relative one, (2 kT)^(1/2).
-constexpr double skin = 1.5;
+// Neighbour lists reach beyond the range by the skin. At rest LAMMPS itself sees when a particle has come too far;
+// under shear its test counts the motion of the box's corners as well and asks for a new list in every step: there a
+// list is made anew after so many steps that two particles may approach each other by the skin, at a speed of
+// `fastest_approach` in units of the typical relative one, (2 kT)^(1/2).
+constexpr double skin = 1.0;
 constexpr double fastest_approach = 7.0;
 
 int steps_between_lists(const LammpsCase& one) {
@@ -144,7 +145,7 @@ variable frame_steps index 0
 variable rate index 0
 @system@@pair@
 neighbor @skin@ bin
-neigh_modify every @rebuild@ delay 0 check no
+neigh_modify every 1 delay 0 check yes
 timestep ${step}
 compute peculiar all temp
 fix motion all nve
@@ -158,7 +159,8 @@ constexpr std::string_view sheared_script = R"lammps(# @title@
 #   lmp -in sheared.in -log sheared.log           (mpirun -np 4 lmp -in sheared.in -log sheared.log on four cores)
 # sheared_series.dat: what is watched, every @every@ steps, of the instant; heat is what the thermostat has removed, to
 # be compared with the work, minus the integral of rate*pxy*area. Any variable below can be set from the command line:
-# -var steps 1000 -var frame_steps 20 (frames: sheared.dump, laboratory velocities) -var flip yes.
+# -var steps 1000 -var frame_steps 20 (frames: sheared.dump, laboratory velocities) -var rebuild 1 (neighbour lists in
+# every step, for a state with particles much faster than thermal ones).
 #
 # What is not used here, and why (LAMMPS of 29 Sep 2021):
 #   fix nvt/sllod      counts the shear twice: it removes twice the work as heat
@@ -174,11 +176,12 @@ variable every index @every@
 variable frame_steps index 0
 variable rate index @rate@
 variable temperature index @temperature@
+variable rebuild index @rebuild@
 variable flip index no
 @system@@pair@
 change_box all triclinic
 neighbor @skin@ bin
-neigh_modify every @rebuild@ delay 0 check no
+neigh_modify every ${rebuild} delay 0 check no
 timestep ${step}
 
 # Laboratory velocities: peculiar ones and the flow.
