@@ -9,6 +9,7 @@
 
 #include "cases/refusals.hpp"
 #include "cases/seeds.hpp"
+#include "lucy/cases/start_state.hpp"
 #include "lucy/errors.hpp"
 #include "lucy/motion/trajectory.hpp"
 
@@ -75,14 +76,17 @@ void validate(const CouettePoint& point) {
 
   const kernel::Lucy<2> kernel(point.range);
   const auto sites = motion::near_square(point.particles);
-  if (sites) {
+  if (!point.start.empty()) {
+    refuse_unfit_start(point);
+  } else if (sites) {
     const double shortest = static_cast<double>((*sites)[1]) / std::sqrt(point.density);
     if (shortest < 2.0 * point.range) {
       refuse(fmt::format("system.particles = {} at density {} make a box of side {:.4g}, below twice kernel.range = {}",
                          point.particles, point.density, shortest, point.range));
     }
   }
-  motion::refuse_impossible_start(kernel, point.particles, point.density, point.energy_per_particle);
+  if (point.start.empty())
+    motion::refuse_impossible_start(kernel, point.particles, point.density, point.energy_per_particle);
 
   if (point.integrator == motion::Integrator::velocity_verlet &&
       (point.strain_rate != 0.0 ||
@@ -107,8 +111,12 @@ struct CouetteRun::Implementation {
   static Trajectory make(const CouettePoint& point, int replica, int threads) {
     validate(point);
     const kernel::Lucy<2> kernel(point.range);
-    const motion::Start<2> start = motion::lattice_start(kernel, point.particles, point.density,
-                                                         point.energy_per_particle, replica_seed(point, replica));
+    const auto start_of_replica = [&](int number) {
+      return point.start.empty() ? motion::lattice_start(kernel, point.particles, point.density,
+                                                         point.energy_per_particle, replica_seed(point, number))
+                                 : state_start(point);
+    };
+    const motion::Start<2> start = start_of_replica(replica);
     motion::Shear shear;
     shear.strain_rate = point.strain_rate;
     shear.thermostat = point.thermostat;
@@ -118,10 +126,7 @@ struct CouetteRun::Implementation {
     } else if (point.thermostat == motion::Thermostat::isokinetic ||
                point.thermostat == motion::Thermostat::nose_hoover) {
       // One temperature for all replicas, though their starts differ a little: that of the first.
-      shear.target_kinetic_energy =
-          replica == 0 ? kinetic_energy(start)
-                       : kinetic_energy(motion::lattice_start(kernel, point.particles, point.density,
-                                                              point.energy_per_particle, replica_seed(point, 0)));
+      shear.target_kinetic_energy = kinetic_energy(replica == 0 ? start : start_of_replica(0));
     }
     motion::Watch watch;
     watch.energy_tolerance = point.energy_tolerance;

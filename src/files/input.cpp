@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "lucy/errors.hpp"
+#include "lucy/files/particle_file.hpp"
 #include "shared_keys.hpp"
 
 namespace lucy::files {
@@ -24,7 +25,23 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
         .meaning = "Target temperature K/(N-1) of the isokinetic and the Nose-Hoover thermostat.",
         .range = Range::above(0),
         .default_text = "that of the start"},
-       stored_in(&P::kinetic_temperature)}};
+       stored_in(&P::kinetic_temperature)},
+      {{.section = "system",
+        .name = "start",
+        .type = Type::text,
+        .meaning =
+            "File of the state to start from: the last frame of a LAMMPS data file or dump (box tilted or not), "
+            "of extended XYZ, or of a point file. Its box takes the place of the lattice's; its peculiar momenta "
+            "are scaled, by a tenth at most, so that the energy is energy_per_particle.",
+        .default_text = "a lattice"},
+       stored_unless_empty_in(&P::start)},
+      {{.section = "system",
+        .name = "start_strain_rate",
+        .unit = "1/time",
+        .meaning = "With start: the strain rate of the flow in the velocities of that file, which is taken out of them "
+                   "(0: they are peculiar).",
+        .default_text = "what the file says, or 0"},
+       stored_in(&P::start_strain_rate)}};
   const auto shear = joined(
       strain_rate_key<P>("Strain rate d u_x/d y, of either sign. At zero there is no shear and no viscosity."),
       thermostat_keys<P>("How the heat of the shear is removed: at constant internal energy (Gauss), at constant "
@@ -72,6 +89,18 @@ void refuse_contradictions(const CouettePoint& point) {
                                toml_text(point.maximum_duration), toml_text(point.duration)));
 }
 
+/// The state that a point starts from, if that is one from a file.
+void read_start(CouettePoint& point) {
+  if (point.start.empty()) return;
+  try {
+    const ParticleReader reader(point.start);
+    point.start_frame =
+        std::make_shared<const cases::Frame>(reader.state(reader.frames() - 1, point.start_strain_rate).frame);
+  } catch (const BadInput& refusal) {
+    throw BadInput(fmt::format("system.start = {}: {}", toml_text(point.start), refusal.what()));
+  }
+}
+
 }  // namespace
 
 Schema sweep_schema() {
@@ -89,8 +118,9 @@ Schema sweep_schema() {
 }
 
 SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  return read_input<SweepInput>(file, overrides, sweep_schema(), point_keys(), [](const CouettePoint& point) {
+  return read_input<SweepInput>(file, overrides, sweep_schema(), point_keys(), [](CouettePoint& point) {
     refuse_contradictions(point);
+    read_start(point);
     cases::validate(point);
   });
 }

@@ -101,6 +101,7 @@ void write_provenance(const std::filesystem::path& path, const Provenance& prove
   add("commit", json_string(provenance.commit));
   add("compiler", json_string(provenance.compiler));
   add("flags", json_string(provenance.flags));
+  if (!provenance.engine.empty()) add("engine", json_string(provenance.engine));
   add("processor", json_string(processor_model()));
   add("host", json_string(host_name()));
   add("threads", fmt::format("{}", provenance.threads));

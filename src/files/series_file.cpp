@@ -91,8 +91,8 @@ class ColumnReader {
  public:
   explicit ColumnReader(const std::filesystem::path& path) : path_(path.string()) {}
 
-  ColumnFile read(const std::string& text) {
-    if (text.find('\0') != std::string::npos)
+  ColumnFile read(std::string_view text) {
+    if (text.find('\0') != std::string_view::npos)
       throw BadInput(fmt::format("{} is not a file of columns of numbers: it is binary", path_));
     const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     std::string_view rest = text;
@@ -158,7 +158,11 @@ class ColumnReader {
 
 }  // namespace
 
-ColumnFile read_columns(const std::filesystem::path& path) { return ColumnReader(path).read(read_text_file(path)); }
+ColumnFile parse_columns(std::string_view text, const std::filesystem::path& path) {
+  return ColumnReader(path).read(text);
+}
+
+ColumnFile read_columns(const std::filesystem::path& path) { return parse_columns(read_text_file(path), path); }
 
 std::size_t find_column(const ColumnFile& file, std::string_view name_or_number, const std::filesystem::path& path) {
   const auto found = std::ranges::count(file.names, name_or_number);

@@ -44,7 +44,7 @@ void draw(const std::vector<Drawing>& drawings) {
   }
   for (const auto& drawing : drawings) {
     const auto command = words(drawing, {*python, "-B"});
-    const ScriptResult result = run_command(command, longest_drawing);
+    const CommandResult result = run_command(command, longest_drawing);
     if (!result.output.empty()) print("\n{}", result.output);
     if (!result.succeeded)
       print("\nNo {}: {}\nTo draw it: {}\n", drawing.picture.filename().string(), result.complaint,

@@ -53,6 +53,8 @@ constexpr std::string_view short_help =
     "  lucy viscosity SWEEP... GREEN-KUBO                  both routes and print side by side\n"
     "  lucy benard-compare DIR... [--out DIR]              convection by particles, grid and print side by side\n"
     "  lucy fields FILE.h5 [--frame N] [--out DIR]         a saved state as fields on a grid\n"
+    "  lucy lammps export|run|check ...                    the same states in LAMMPS, and both engines compared\n"
+    "  lucy read-dump FILE [--out FILE]                    a LAMMPS or XYZ file, read and written\n"
     "  lucy explain [KEY]                                  the keys of an input file\n"
     "\n"
     "A first one: lucy sweep inputs/quick.toml\n"
@@ -98,8 +100,14 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
 std::string usage_error(const CLI::App& program, const CLI::ParseError& error,
                         const std::vector<std::string>& arguments) {
   const auto chosen = program.get_subcommands();
-  const CLI::App& where = chosen.empty() ? program : *chosen.front();
-  const std::string name = chosen.empty() ? "lucy" : "lucy " + where.get_name();
+  const CLI::App* deepest = chosen.empty() ? &program : chosen.front();
+  std::string name = chosen.empty() ? "lucy" : "lucy " + deepest->get_name();
+  for (auto deeper = deepest->get_subcommands(); deepest != &program && !deeper.empty();
+       deeper = deepest->get_subcommands()) {
+    deepest = deeper.front();
+    name += " " + deepest->get_name();
+  }
+  const CLI::App& where = *deepest;
   const auto looks_like_option = [](std::string_view word) { return word.starts_with('-'); };
   if (chosen.empty() && !looks_like_option(arguments.front()))
     return fmt::format("there is no command '{}'{} (commands: {})", arguments.front(),
@@ -427,6 +435,69 @@ int run_program(int argument_count, const char* const* argument_values) {
       "  lucy fields runs/frames/point_004.h5\n"
       "  lucy fields runs/frames/point_004.h5 --time 100 --grid 256 256 --kernel monaghan --range 4 --out runs/wider");
 
+  auto* lammps_command = program.add_subcommand("lammps", "The same states in LAMMPS, another engine");
+  lammps_command->require_subcommand(1);
+  lammps_command->set_help_flag("-h,--help", "This text");
+  std::string lammps_program;
+  const auto add_lammps = [&](CLI::App* command) {
+    command
+        ->add_option("--lammps", lammps_program, "The program; default: lmp on PATH (Debian: apt-get install lammps)")
+        ->type_name("PROGRAM");
+  };
+  auto* export_command =
+      lammps_command->add_subcommand("export", "Write the states of a sweep as cases for LAMMPS; run nothing there");
+  add_input(export_command);
+  export_command->footer(
+      "\nLAMMPS has no ergostat: sheared states get the temperature of a short run of Lucy's, or the one that\n"
+      "system.kinetic_temperature sets.\n"
+      "\nExamples:\n"
+      "  lucy lammps export inputs/quick.toml --out runs/for_lammps\n"
+      "  lucy lammps export inputs/quick.toml --set system.particles=1048576 --set system.kinetic_temperature=0.5424 "
+      "\\\n"
+      "    --set shear.strain_rate=0.1 --out runs/large");
+  auto* run_command = lammps_command->add_subcommand("run", "Run exported cases with LAMMPS, to a table.csv");
+  LammpsRunRequest lammps_request;
+  run_command->add_option("DIR", lammps_request.directory, "Directory of a `lucy lammps export`")->required();
+  run_command->add_option("--ranks", lammps_request.ranks, "MPI ranks; default: 1")->type_name("N");
+  add_lammps(run_command);
+  run_command->set_help_flag("-h,--help", "This text");
+  run_command->footer(
+      "\nStates that are done are not run again.\n"
+      "\nExample:\n"
+      "  lucy lammps run runs/for_lammps --ranks 2");
+  auto* lammps_check_command = lammps_command->add_subcommand(
+      "check", "Compare both engines: single points, trajectories, averages, Green-Kubo");
+  add_input(lammps_check_command);
+  add_lammps(lammps_check_command);
+  lammps_check_command->footer(
+      "\nExit code 0: every line agrees; 1: not, or LAMMPS is not installed. Averages may differ by four standard\n"
+      "errors. Of INPUT count particles, the first energy_per_particle, step, equilibration, duration and seed.\n"
+      "\nExample:\n"
+      "  lucy lammps check inputs/quick.toml");
+
+  auto* dump_command = program.add_subcommand(
+      "read-dump", "Particles from LAMMPS (data, dump), extended XYZ or a point file; and into another of these");
+  DumpRequest dump_request;
+  std::size_t dump_frame = 0;
+  double dump_rate = 0.0;
+  dump_command->add_option("FILE", dump_request.file, "LAMMPS data file or dump, extended XYZ, point_NNN.h5")
+      ->required();
+  dump_command->add_option("--frame", dump_frame, "Number of the frame, from 1; default: all")->type_name("N");
+  dump_command->add_option("--replica", dump_request.replica, "Number of the replica in a point file; default: 1")
+      ->type_name("N");
+  dump_command
+      ->add_option("--strain-rate", dump_rate, "Of the flow in the velocities; default: what the file says, or 0")
+      ->type_name("RATE");
+  dump_command->add_flag("--peculiar", dump_request.peculiar, "Write peculiar velocities, without the flow");
+  dump_command->add_option("--out", out, "File to write: .data (LAMMPS data), .dump (LAMMPS dump), .xyz (extended XYZ)")
+      ->type_name("FILE");
+  dump_command->set_help_flag("-h,--help", "This text");
+  dump_command->footer(
+      "\nA sweep starts from such a file with --set 'system.start=\"FILE\"'.\n"
+      "\nExamples:\n"
+      "  lucy read-dump runs/frames/point_004.h5 --out movie.xyz\n"
+      "  lucy read-dump sheared.dump --strain-rate 0.1 --frame 12 --out state.data");
+
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants it
     program.parse(reversed);
@@ -442,8 +513,11 @@ int run_program(int argument_count, const char* const* argument_values) {
     if (!out.empty()) request.out = out;
     for (const auto* command : {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command,
                                 shear_wave_command, temperature_wave_command, benard_command, benard_grid_command,
-                                check_command, viscosity_command, benard_compare_command, fields_command})
-      if (out.empty() && command->count("--out") > 0) throw BadInput("--out is empty where a directory is expected");
+                                check_command, viscosity_command, benard_compare_command, fields_command,
+                                export_command, lammps_check_command, dump_command})
+      if (out.empty() && command->count("--out") > 0)
+        throw BadInput(
+            fmt::format("--out is empty where a {} is expected", command == dump_command ? "file" : "directory"));
     if (sweep_command->parsed()) return sweep(request);
     if (green_kubo_command->parsed()) {
       if (series_option->count() == 0) {
@@ -497,6 +571,20 @@ int run_program(int argument_count, const char* const* argument_values) {
       fields_request.out = request.out;
       fields_request.command_line = words;
       return fields(fields_request);
+    }
+    const auto lammps = lammps_program.empty() ? std::nullopt : std::optional<std::filesystem::path>(lammps_program);
+    if (export_command->parsed()) return lammps_export(request);
+    if (run_command->parsed()) {
+      lammps_request.lammps = lammps;
+      lammps_request.command_line = words;
+      return lammps_run(lammps_request);
+    }
+    if (lammps_check_command->parsed()) return lammps_check(request, lammps);
+    if (dump_command->parsed()) {
+      if (dump_command->count("--frame") > 0) dump_request.frame = dump_frame;
+      if (dump_command->count("--strain-rate") > 0) dump_request.strain_rate = dump_rate;
+      dump_request.out = request.out;
+      return read_dump(dump_request);
     }
     return compare(table, published);
   });

@@ -107,6 +107,37 @@ struct FieldsRequest {
 /// Density, velocity, temperature, pressure and energy of a saved state on a grid, and their spectra (fields.cpp).
 int fields(const FieldsRequest& request);
 
+/// Writes the states of a sweep as cases for LAMMPS (lammps.cpp).
+int lammps_export(const InputRequest& request);
+
+/// Cases that were exported, run by LAMMPS.
+struct LammpsRunRequest {
+  std::filesystem::path directory;
+  int ranks = 1;
+  std::optional<std::filesystem::path> lammps = {};  ///< the program; default: lmp and the like on PATH
+  std::vector<std::string> command_line = {};
+};
+
+/// Runs them, or goes on with it, and writes table.csv (lammps.cpp).
+int lammps_run(const LammpsRunRequest& request);
+
+/// Hands states to LAMMPS and to this engine and compares them line by line, or goes on with it; writes verdict.csv
+/// (lammps_check.cpp). 1 when anything differs. `lammps` as above.
+int lammps_check(const InputRequest& request, const std::optional<std::filesystem::path>& lammps);
+
+/// A file of particles of whatever program, or of Lucy.
+struct DumpRequest {
+  std::filesystem::path file;
+  int replica = 1;                                ///< of a point file, from 1
+  std::optional<std::size_t> frame = {};          ///< number from 1; default: all
+  std::optional<double> strain_rate = {};         ///< of the flow in its velocities
+  bool peculiar = false;                          ///< write peculiar velocities
+  std::optional<std::filesystem::path> out = {};  ///< a file; its name says the format
+};
+
+/// Says what is in the file, and writes it in another format (read_dump.cpp).
+int read_dump(const DumpRequest& request);
+
 /// Says what an input would do and cost; writes nothing (check.cpp). Without a kind, it is that of kind_of_input.
 int check(const InputRequest& request, std::optional<files::InputKind> kind);
 

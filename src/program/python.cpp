@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -41,13 +42,19 @@ struct Pipe {
   }
 };
 
-/// Reads both streams until the command closes them. False: the time is over.
-bool collect(Pipe& out, Pipe& err, std::string& output, std::string& errors, Clock::time_point deadline) {
+constexpr double longest_look = 0.2;  // seconds between questions whether to go on
+
+/// Reads both streams until the command closes them. False: the time is over. `look` is called in between.
+bool collect(Pipe& out, Pipe& err, std::string& output, std::string& errors, double seconds,
+             const std::function<void()>& look) {
+  const auto begin = Clock::now();
   while (out.ends[0] >= 0 || err.ends[0] >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
+    const double left = seconds - std::chrono::duration<double>(Clock::now() - begin).count();
+    if (left <= 0.0) return false;
+    look();
     std::array<pollfd, 2> streams = {pollfd{out.ends[0], POLLIN, 0}, pollfd{err.ends[0], POLLIN, 0}};
-    if (::poll(streams.data(), streams.size(), static_cast<int>(left)) < 0 && errno != EINTR) return false;
+    const int wait = static_cast<int>(1e3 * std::min(left, longest_look)) + 1;
+    if (::poll(streams.data(), streams.size(), wait) < 0 && errno != EINTR) return false;
     for (auto* stream : {&out, &err}) {
       if (streams[stream == &out ? 0 : 1].revents == 0) continue;
       std::array<char, 4096> part;
@@ -85,8 +92,8 @@ std::optional<std::string> find_python(const std::vector<std::string>& candidate
   return std::nullopt;
 }
 
-ScriptResult run_command(const std::vector<std::string>& words, double seconds) {
-  ScriptResult result;
+CommandResult run_command(const std::vector<std::string>& words, double seconds, const CommandSettings& settings) {
+  CommandResult result;
   Pipe out;
   Pipe err;
   if (out.ends[0] < 0 || err.ends[0] < 0) {
@@ -101,6 +108,7 @@ ScriptResult run_command(const std::vector<std::string>& words, double seconds) 
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_adddup2(&actions, out.ends[1], STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, err.ends[1], STDERR_FILENO);
+  if (!settings.folder.empty()) ::posix_spawn_file_actions_addchdir_np(&actions, settings.folder.c_str());
   pid_t process = -1;
   const int failure = ::posix_spawnp(&process, arguments.front(), &actions, nullptr, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
@@ -112,9 +120,10 @@ ScriptResult run_command(const std::vector<std::string>& words, double seconds) 
   }
 
   std::string errors;
-  const auto deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  const bool in_time = collect(out, err, result.output, errors, deadline);
+  const auto ask_to_end = [&] {
+    if (settings.goes_on && !settings.goes_on()) ::kill(process, SIGTERM);
+  };
+  const bool in_time = collect(out, err, result.output, errors, seconds, ask_to_end);
   if (!in_time) ::kill(process, SIGKILL);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {

@@ -30,6 +30,9 @@ struct CouettePoint {
   int dimension = 2;
   motion::Reading reading = motion::Reading::md;
   std::optional<double> kinetic_temperature;  ///< target kT of isokinetic and Nose-Hoover; default: the start's
+  std::string start;                          ///< file of the state to start from; empty: a lattice
+  std::optional<double> start_strain_rate;    ///< of the flow in its velocities; default: as the file says, or none
+  std::shared_ptr<const Frame> start_frame;   ///< what was read from it
   // [kernel]
   std::string kernel = "lucy";
   double range = 3.0;  ///< h
@@ -59,7 +62,8 @@ int sample_steps(const CouettePoint& point);
 
 /// Refuses (BadInput, one sentence naming the key `section.key`, the value and the accepted range) what cannot be run:
 /// a box below twice the range, an energy at or below the start lattice's potential energy, a step above 0.2, a
-/// particle number without a near-square lattice, velocity Verlet with shear or thermostat, and the like.
+/// particle number without a near-square lattice, velocity Verlet with shear or thermostat, a start from a file that is
+/// not of this system (start_state.hpp), and the like.
 void validate(const CouettePoint& point);
 
 /// The seed of one replica's start, made from the point's seed, the replica's number and the state point: the same

@@ -21,7 +21,8 @@ struct Provenance {
   std::string commit;
   std::string compiler;
   std::string flags;
-  std::string generator;  ///< of random numbers
+  std::string engine = {};  ///< another program that did the work; empty: none did, and nothing is said
+  std::string generator;    ///< of random numbers
   std::uint64_t seed = 0;
   int threads = 0;
   std::vector<std::string> command_line;

@@ -226,6 +226,14 @@ Binding<Row> stored_unless_zero_in(double Row::*member) {
           [member](const Row& row) { return row.*member > 0.0 ? std::optional<Value>(row.*member) : std::nullopt; }};
 }
 
+/// Stored in a text that is not empty when set.
+template <class Row>
+Binding<Row> stored_unless_empty_in(std::string Row::*member) {
+  return {
+      [member](Row& row, const Value& value) { row.*member = std::get<std::string>(value); },
+      [member](const Row& row) { return (row.*member).empty() ? std::nullopt : std::optional<Value>(row.*member); }};
+}
+
 /// Stored in an enumeration whose names stand in a table of (name, value) pairs.
 template <class Row, class Choice, std::size_t Count>
 Binding<Row> stored_by_name_in(Choice Row::*member, std::array<std::pair<std::string_view, Choice>, Count> names) {

@@ -23,6 +23,9 @@ struct ColumnFile {
 /// that are not as many as the numbers below them; a file without a row, a binary one, one that cannot be read.
 ColumnFile read_columns(const std::filesystem::path& path);
 
+/// The same of a text; `path` is for messages.
+ColumnFile parse_columns(std::string_view text, const std::filesystem::path& path);
+
 /// The place of a column by its name, or by its number, counted from 1. Throws BadInput with what there is; `path` is
 /// for the message.
 std::size_t find_column(const ColumnFile& file, std::string_view name_or_number, const std::filesystem::path& path);

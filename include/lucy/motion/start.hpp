@@ -21,6 +21,7 @@ struct Start {
   space::Vector<D> lengths{};
   std::vector<space::Vector<D>> position;
   std::vector<space::Vector<D>> momentum;  ///< peculiar
+  double offset = 0.0;                     ///< x-shift of the image above
 };
 
 /// Columns and rows of the most nearly square lattice of `particles` sites; nothing if its sides differ by more than

@@ -1,0 +1,210 @@
+# Lucy: smooth-particle and molecular dynamics on one set of kernels.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`lucy lammps export`, `run` and `check` with the real LAMMPS. Where it is not installed: skipped: no LAMMPS."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+from running import ProgramTest
+
+SMALL = """\
+title = "a free and a sheared state"
+[system]
+particles = 144
+energy_per_particle = 1
+[shear]
+strain_rate = [0.0, 0.5]
+[run]
+equilibration = 10
+duration = 100
+"""
+
+
+class LammpsTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("small.toml", SMALL)
+
+    def lammps(self, *arguments, code=0, says=(), **options):
+        process = self.lucy("lammps", *arguments, **options)
+        self.expect(process, code, *says)
+        return process
+
+    def export(self, *arguments):
+        return self.lammps("export", "small.toml", "--out", "x", *arguments)
+
+    def run_script(self, folder, script, *variables):
+        process = subprocess.run(["lmp", "-in", f"{script}.in", "-log", f"{script}.log", "-screen", "none", *variables],
+                                 cwd=self.folder / folder, capture_output=True, text=True, timeout=300)
+        log = (self.folder / folder / f"{script}.log").read_text()
+        self.assertEqual(process.returncode, 0, log[-2000:])
+        return log
+
+    def series(self, path):
+        lines = (self.folder / path).read_text().splitlines()
+        names = lines[1].lstrip("# ").split()
+        return [dict(zip(names, map(float, line.split()))) for line in lines[2:]]
+
+
+class Export(LammpsTest):
+    def test_every_script_runs_in_lammps_as_it_stands(self):
+        self.export()
+        self.assertEqual(self.entries("x"), [".lock", "README.txt", "input.toml", "point_001", "point_002"])
+        self.assertNotIn("sheared.in", self.entries("x/point_001"))
+        for script in ("single_point", "exact_point", "nve"):
+            self.run_script("x/point_001", script)
+        for script in ("single_point", "exact_point", "nve", "sheared"):
+            log = self.run_script("x/point_002", script)
+        self.assertNotIn("ERROR", log)
+        rows = self.series("x/point_002/sheared_series.dat")
+        self.assertEqual(rows[-1]["time"], 110)
+        self.assertLessEqual(max(abs(row["tilt"]) for row in rows), 6 + 0.3)
+
+    def test_table_and_exact_form_agree_within_the_interpolation_error(self):
+        self.export()
+        for script in ("single_point", "exact_point"):
+            self.run_script("x/point_002", script)
+        table, exact = ([float(word) for word in (self.folder / f"x/point_002/{script}.txt").read_text().split()[-7:]]
+                        for script in ("single_point", "exact_point"))
+        for a, b in zip(table, exact):
+            self.assertAlmostEqual(a, b, delta=1e-5 * max(1, abs(b)))
+        self.assertNotEqual(table, exact)
+
+    def test_the_temperature_of_a_sheared_case_is_that_of_the_ergostat(self):
+        self.export()
+        text = (self.folder / "x/point_002/sheared.in").read_text()
+        temperature = float(re.search(r"variable temperature index (\S+)", text).group(1))
+        self.assertAlmostEqual(temperature, 0.54, delta=0.02)
+        self.lammps("export", "small.toml", "--out", "y", "--set", "system.kinetic_temperature=0.5")
+        self.assertIn("variable temperature index 0.5\n", (self.folder / "y/point_002/sheared.in").read_text())
+
+    def test_the_same_case_is_exported_once_and_another_one_nowhere_else(self):
+        self.export()
+        start = (self.folder / "x/point_001/start.data").read_bytes()
+        self.assertIn("exported before", self.export().stdout)
+        self.assertEqual((self.folder / "x/point_001/start.data").read_bytes(), start)
+        self.lammps("export", "small.toml", "--out", "x", "--set", "run.seed=2", code=2, says=("another input",))
+
+    def test_what_lammps_cannot_do_is_refused(self):
+        self.lammps("export", "small.toml", "--out", "x", "--set", 'shear.thermostat="none"', code=2,
+                    says=("shear.thermostat",))
+        self.assertFalse((self.folder / "x").exists())
+        self.lammps("export", "nowhere.toml", code=2, says=("nowhere.toml",))
+        self.lammps("exprt", "small.toml", code=2)
+
+
+class Run(LammpsTest):
+    def test_ends_in_a_table_that_compare_takes(self):
+        self.export("--set", "run.duration=600")
+        process = self.lammps("run", "x")
+        self.assertIn("ns per particle and step", process.stdout)
+        rows = self.rows("x")
+        self.assertEqual([float(row["strain_rate"]) for row in rows], [0, 0.5])
+        self.assertEqual([row["status"] for row in rows], ["ok", "ok"])
+        self.assertIn("LAMMPS", json.loads((self.folder / "x/provenance.json").read_text())["engine"])
+        self.sweep("small.toml", "--out", "ours", "--set", "run.duration=600")
+        self.assertEqual(list(rows[0]), list(self.rows("ours")[0]))
+        compared = self.lucy("compare", "x", "--with", "ours/table.csv")
+        self.assertIn(compared.returncode, (0, 1), compared.stderr)
+        for ours, theirs in zip(self.rows("ours"), rows):
+            for name in ("kinetic_temperature", "pxy_kinetic", "pxx_potential"):
+                error = sum(float(row[name + "_error"])**2 for row in (ours, theirs))**0.5
+                self.assertLess(abs(float(ours[name]) - float(theirs[name])), 4 * error + 1e-3, name)
+
+    def test_what_is_done_is_not_run_again(self):
+        self.export()
+        self.lammps("run", "x")
+        table = (self.folder / "x/table.csv").read_bytes()
+        log = self.folder / "x/point_002/sheared.log"
+        log.unlink()
+        self.lammps("run", "x")
+        self.assertFalse(log.exists())
+        self.assertEqual((self.folder / "x/table.csv").read_bytes(), table)
+
+    def test_two_ranks_end_with_the_same_averages(self):
+        self.export("--set", "run.duration=20")
+        self.lammps("run", "x", "--ranks", "2")
+        self.assertEqual(len(self.rows("x")), 2)
+        self.assertAlmostEqual(float(self.rows("x")[0]["kinetic_temperature"]), 0.54, delta=0.05)
+
+    def test_a_series_is_what_green_kubo_takes(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=2000")
+        self.lammps("run", "x")
+        process = self.lucy("green-kubo", "--from-series", "x/point_001/nve_series.dat", "--interval", "0.2",
+                            "--volume", "144", "--temperature", "0.54", "--out", "gk", "--no-pictures")
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def test_frames_of_the_sheared_run_start_a_sweep(self):
+        self.export("--set", "run.duration=20")
+        self.run_script("x/point_002", "sheared", "-var", "frame_steps", "101")
+        sweep = ["small.toml", "--set", "shear.strain_rate=0.5", "--set", 'system.start="x/point_002/sheared.dump"']
+        self.sweep(*sweep, "--out", "wrong", code=2, says=("energy_per_particle", "start_strain_rate"))
+        self.sweep(*sweep, "--out", "right", "--set", "system.start_strain_rate=0.5")
+        self.assertEqual(len(self.rows("right")), 1)
+
+    def test_words_of_lammps_are_passed_on(self):
+        self.export()
+        script = self.folder / "x/point_001/nve.in"
+        script.write_text(script.read_text().replace("pair_style table", "pair_style tabel"))
+        self.lammps("run", "x", code=1, says=("nve.in", "tabel"))
+
+    def test_bad_usage_is_refused(self):
+        self.lammps("run", "nowhere", code=2, says=("nowhere", "export"))
+        self.export()
+        self.lammps("run", "x", "--ranks", "0", code=2, says=("--ranks",))
+
+
+class Check(LammpsTest):
+    def test_a_small_check_agrees_and_is_printed_again(self):
+        arguments = ("check", "small.toml", "--out", "c", "--set", "run.duration=150")
+        first = self.lammps(*arguments)
+        self.assertIn("Both engines agree", first.stdout)
+        with open(self.folder / "c/verdict.csv", newline="") as file:
+            lines = list(csv.DictReader(file))
+        exact = [line for line in lines if "exact form" in line["part"]]
+        self.assertEqual(len(exact), 10)
+        for line in exact:
+            self.assertLess(abs(float(line["difference"])), 1e-10)
+        heat = [line for line in lines if line["quantity"] == "heat removed over work"]
+        self.assertEqual(len(heat), 4)
+        again = self.lammps(*arguments)
+        self.assertIn("nothing was run", again.stdout)
+        self.assertEqual(first.stdout.split("\nLAMMPS 29")[0], again.stdout.split("\nThis check")[0])
+        for engine in ("lucy", "lammps"):
+            self.assertEqual(len(self.rows(f"c/{engine}")), 5)
+
+    def test_a_line_that_differs_is_told_and_ends_with_one(self):
+        self.lammps("check", "small.toml", "--out", "c", "--set", "run.duration=20")
+        verdict = self.folder / "c/verdict.csv"
+        text = verdict.read_text().splitlines()
+        cells = text[1].split(",")
+        cells[6] = "0.1"
+        text[1] = ",".join(cells)
+        verdict.write_text("\n".join(text) + "\n")
+        again = self.lucy("lammps", "check", "small.toml", "--out", "c", "--set", "run.duration=20")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("DIFFERS", again.stdout)
+
+
+class Absent(LammpsTest):
+    def test_says_in_one_sentence_how_to_install_it(self):
+        nowhere = self.environment(PATH=str(self.folder))
+        self.export()
+        for arguments in (("run", "x"), ("check", "small.toml", "--out", "c")):
+            self.lammps(*arguments, code=1, says=("apt-get install lammps",), environment=nowhere)
+        self.assertFalse((self.folder / "c").exists())
+        self.lammps("run", "x", "--lammps", "/bin/true", code=1, says=("/bin/true", "not LAMMPS"))
+
+
+if __name__ == "__main__":
+    if shutil.which("lmp") is None:
+        print("skipped: no LAMMPS")
+        sys.exit(77)
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main(verbosity=2)
