@@ -511,10 +511,10 @@ int run_program(int argument_count, const char* const* argument_values) {
   return tell_errors([&] {
     request.input = input;
     if (!out.empty()) request.out = out;
-    for (const auto* command : {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command,
-                                shear_wave_command, temperature_wave_command, benard_command, benard_grid_command,
-                                check_command, viscosity_command, benard_compare_command, fields_command,
-                                export_command, lammps_check_command, dump_command})
+    for (const auto* command :
+         {sweep_command, green_kubo_command, isomorphism_command, shear_flow_command, shear_wave_command,
+          temperature_wave_command, benard_command, benard_grid_command, check_command, viscosity_command,
+          benard_compare_command, fields_command, export_command, lammps_check_command, dump_command})
       if (out.empty() && command->count("--out") > 0)
         throw BadInput(
             fmt::format("--out is empty where a {} is expected", command == dump_command ? "file" : "directory"));
