@@ -30,14 +30,15 @@ constexpr double longest_between_rows = 0.2;  // the fast part of the stress cor
 // Neighbour lists reach beyond the range by the skin. At rest LAMMPS itself sees when a particle has come too far;
 // under shear its test counts the motion of the box's corners as well and asks for a new list in every step: there a
 // list is made anew after so many steps that two particles may approach each other by the skin, at a speed of
-// `fastest_approach` in units of the typical relative one, (2 kT)^(1/2).
+// `fastest_approach` in units of the typical relative one, (2 kT)^(1/2), and with the flow between them.
 constexpr double skin = 1.0;
 constexpr double fastest_approach = 7.0;
 
 int steps_between_lists(const LammpsCase& one) {
   double start = 0.0;
   for (const double p : one.start.momentum) start += 0.5 * p * p / static_cast<double>(one.point.particles);
-  const double speed = fastest_approach * std::sqrt(2.0 * std::max(start, one.temperature));
+  const double speed = fastest_approach * std::sqrt(2.0 * std::max(start, one.temperature)) +
+                       std::abs(one.point.strain_rate) * (one.point.range + skin);
   return std::clamp(static_cast<int>(skin / (speed * one.point.step)), 1, 20);
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -190,9 +191,13 @@ int lammps_run(const LammpsRunRequest& request) {
                                100.0 * last_step_of(series) / steps, duration_text(elapsed)));
         return !interrupt_noted();
       };
-      fs::path record = job.folder / (job.script + ".done");
-      if (!fs::exists(record, error)) fs::remove(series, error);
-      const auto took = lammps.run_once(job, watch);
+      const bool done_here = fs::exists(job.folder / (job.script + ".done"), error);
+      // On a cluster, say, by hand: the final state is written last of all.
+      const bool done_elsewhere = !done_here && fs::exists(job.folder / (job.script + "_final.data"), error) &&
+                                  last_step_of(series) > steps - files::series_steps(point);
+      if (!done_here && !done_elsewhere) fs::remove(series, error);
+      const auto took =
+          done_elsewhere ? std::optional(std::numeric_limits<double>::quiet_NaN()) : lammps.run_once(job, watch);
       if (!took) {
         console.say("interrupted; the same command goes on with the state that was running");
         return 1;
@@ -210,6 +215,10 @@ int lammps_run(const LammpsRunRequest& request) {
   print("{}\n", files::format_table(rows));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CouettePoint& point = input.points[i];
+    if (std::isnan(seconds[i])) {
+      print("{}: had been run elsewhere.\n", point_label(point));
+      continue;
+    }
     print("{}: {} steps in {}, {:.0f} ns per particle and step.\n", point_label(point), files::lammps_steps(point),
           duration_text(seconds[i]),
           1e9 * seconds[i] / static_cast<double>(files::lammps_steps(point)) / static_cast<double>(point.particles));

@@ -127,6 +127,13 @@ class Run(LammpsTest):
         self.assertFalse(log.exists())
         self.assertEqual((self.folder / "x/table.csv").read_bytes(), table)
 
+    def test_what_was_run_by_hand_is_taken_as_it_is(self):
+        self.export("--set", "shear.strain_rate=0.5")
+        self.run_script("x/point_001", "sheared")
+        series = (self.folder / "x/point_001/sheared_series.dat").read_bytes()
+        self.assertIn("run elsewhere", self.lammps("run", "x").stdout)
+        self.assertEqual((self.folder / "x/point_001/sheared_series.dat").read_bytes(), series)
+
     def test_two_ranks_end_with_the_same_averages(self):
         self.export("--set", "run.duration=20")
         self.lammps("run", "x", "--ranks", "2")
