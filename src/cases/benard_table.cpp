@@ -164,8 +164,8 @@ double kinetic_energy_of_mean_flow(const Moments<2>& moments) {
     const double rho = moments.column[M::density][k];
     mass += rho;
     if (!(rho > 0.0)) continue;
-    for (int d = 0; d < 2; ++d) {
-      const double momentum = moments.column[static_cast<std::size_t>(M::momentum + d)][k];
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double momentum = moments.column[M::momentum + d][k];
       energy += 0.5 * momentum * momentum / rho;
     }
   }

@@ -27,7 +27,7 @@ std::vector<std::string_view> next_words(LineReader& lines) {
 
 /// The words of a line of a section.
 std::vector<std::string_view> entry(LineReader& lines, std::string_view section, std::size_t fewest) {
-  const auto words = next_words(lines);
+  auto words = next_words(lines);
   if (words.size() < fewest)
     lines.refuse(fmt::format("{} words where an entry of {} has at least {}", words.size(), section, fewest));
   return words;

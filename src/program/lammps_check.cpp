@@ -206,7 +206,7 @@ class Check {
   }
 
   fs::path case_of(const std::string& name, const CouettePoint& point, const cases::Frame& start, double temperature) {
-    const fs::path folder = directory_ / name;
+    fs::path folder = directory_ / name;
     make_directory(folder);
     files::write_lammps_case(folder, {point, start, temperature});
     return folder;
@@ -240,7 +240,7 @@ class Check {
     return frames;
   }
 
-  std::vector<VerdictLine> stay_together(CouettePoint point) {
+  std::vector<VerdictLine> stay_together(const CouettePoint& point) {
     const auto steps = static_cast<std::int64_t>(std::round(1.0 / point.step));
     const double interval = static_cast<double>(steps) * point.step;
     const double duration = std::min(longest_together, point.duration);

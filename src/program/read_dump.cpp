@@ -25,7 +25,8 @@ using files::ParticleState;
 /// Box, tilt, density, and what the momenta say.
 std::string description(const ParticleState& state) {
   const cases::Frame& frame = state.frame;
-  const auto n = static_cast<double>(frame.position.size() / 2);
+  const std::size_t particles = frame.position.size() / 2;
+  const auto n = static_cast<double>(particles);
   std::string text =
       fmt::format("box {} x {}, tilt {}, density {}", format_plain(frame.box[0], 9), format_plain(frame.box[1], 9),
                   format_plain(files::tilt_of(frame), 9), format_plain(n / (frame.box[0] * frame.box[1]), 9));
