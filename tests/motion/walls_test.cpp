@@ -343,7 +343,7 @@ class MiddleSlope {
 // Particles see the walls over their range, so that the temperature jumps there: the cell conducts as if it were longer
 // at either end by 1.0 with mirror images and 1.75 with boundary particles, for a range of 3, whatever its height. Six
 // runs scatter by 0.07.
-TEST(FluidBetweenWalls, ConductsTheHeatOfALinearProfile) {
+TEST(FluidBetweenWallsLong, ConductsTheHeatOfALinearProfile) {
   constexpr double width = 8.0;
   constexpr double kappa = 2.0;
   constexpr double difference = 0.2;
@@ -377,7 +377,7 @@ TEST(FluidBetweenWalls, ConductsTheHeatOfALinearProfile) {
 
 // Here, too, the fluid slips: six runs with mirror images have 0.88 of the gradient between walls that are L apart and
 // 0.92 of the work, with boundary particles 0.86 and 0.89; they scatter by 0.01 and 0.015.
-TEST(FluidBetweenWalls, ShearsAsNewtonSaysBetweenWallsThatMove) {
+TEST(FluidBetweenWallsLong, ShearsAsNewtonSaysBetweenWallsThatMove) {
   constexpr double width = 8.0;
   constexpr double height = 24.0;
   constexpr double u = 0.2;
