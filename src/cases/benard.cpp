@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <tuple>
 
+#include "cases/pacing.hpp"
 #include "cases/refusals.hpp"
 #include "cases/seeds.hpp"
 #include "lucy/errors.hpp"
@@ -27,7 +27,14 @@ constexpr int floor_wall = space::wall_number(1, false);
 constexpr int ceiling_wall = space::wall_number(1, true);
 
 std::int64_t intervals(const BenardPoint& point, double time) {
-  return static_cast<std::int64_t>(std::ceil(time / (sample_steps(point) * point.step) - 1e-6));
+  return intervals_in(time, sample_steps(point), point.step);
+}
+
+/// That asked for, or what makes the density 1.
+double height_of(const BenardPoint& point) {
+  if (point.height != 0.0) return point.height;
+  const auto area = static_cast<double>(point.particles);
+  return point.width ? area / *point.width : std::sqrt(area / (point.sides == grid::Sides::periodic ? 2.0 : 1.0));
 }
 
 spam::Fluid<2> fluid_of(const BenardPoint& all) {
@@ -84,11 +91,7 @@ motion::Watch watch_of(const BenardPoint& all) {
 
 BenardPoint resolved(const BenardPoint& point) {
   BenardPoint all = point;
-  if (all.height == 0.0) {
-    const auto area = static_cast<double>(all.particles);
-    const double aspect = all.sides == grid::Sides::periodic ? 2.0 : 1.0;
-    all.height = all.width ? area / *all.width : std::sqrt(area / aspect);
-  }
+  all.height = height_of(point);
   set_unset(all);
   all.roll_velocity = all.roll_velocity.value_or(usual_roll_velocity * (all.hot - all.cold));
   if (all.sample_interval == 0.0) all.sample_interval = sample_steps(all) * all.step;
@@ -97,13 +100,7 @@ BenardPoint resolved(const BenardPoint& point) {
 
 int sample_steps(const BenardPoint& point) {
   const double interval = point.sample_interval > 0.0 ? point.sample_interval : usual_sample_steps * point.step;
-  auto steps = std::max<std::int64_t>(1, std::llround(std::min(interval, point.duration) / point.step));
-  if (point.frame_interval > 0.0) {
-    const std::int64_t between = std::max<std::int64_t>(1, std::llround(point.frame_interval / point.step));
-    steps = std::min(steps, between);
-    while (between % steps != 0) --steps;
-  }
-  return static_cast<int>(std::min<std::int64_t>(steps, std::numeric_limits<int>::max()));
+  return interval_steps(std::min(interval, point.duration), point.frame_interval, point.step);
 }
 
 std::int64_t equilibration_intervals(const BenardPoint& point) { return intervals(point, point.equilibration); }
@@ -120,19 +117,8 @@ std::uint64_t replica_seed(const BenardPoint& point, int replica) {
 void validate(const BenardPoint& point) {
   refuse_unless_above_zero("system.particles", static_cast<double>(point.particles));
   refuse_unless_above_zero("kernel.range", point.range);
-  const BenardPoint sized = [&] {
-    BenardPoint with_height = point;
-    if (point.height == 0.0) {
-      // The other defaults may not be settable yet.
-      with_height.rayleigh = 1.0;
-      with_height.viscosity.reset();
-      with_height.conductivity.reset();
-      with_height.height = resolved(with_height).height;
-    }
-    BenardPoint result = point;
-    result.height = with_height.height;
-    return result;
-  }();
+  BenardPoint sized = point;
+  sized.height = height_of(point);
   validate(static_cast<const Convection&>(sized), false);
   const double width = width_of(sized);
   const double columns = std::round(width);
@@ -323,22 +309,13 @@ const BenardParticles& BenardRun::last() const { return self_->last; }
 const motion::FluidTrajectory<2>& BenardRun::trajectory() const { return self_->trajectory; }
 
 Frame BenardRun::frame() const {
-  const Implementation& self = *self_;
-  Frame frame;
-  frame.step = self.done * self.steps_per_sample;
-  frame.time = static_cast<double>(frame.step) * self.point.step;
-  frame.box = self.trajectory.cell().lengths();
-  frame.position = self.trajectory.positions();
-  frame.momentum = self.trajectory.velocities();
-  frame.internal_energy = self.trajectory.energies();
-  return frame;
+  return frame_of(self_->trajectory, self_->done * self_->steps_per_sample, self_->point.step);
 }
 
 bool BenardRun::frame_due() const {
   const Implementation& self = *self_;
-  if (self.point.frame_interval <= 0.0 || !self.record.failure.empty()) return false;
-  const std::int64_t between = std::llround(self.point.frame_interval / self.point.step) / self.steps_per_sample;
-  return self.done % between == 0;
+  return self.record.failure.empty() &&
+         frame_falls_on(self.done, self.point.frame_interval, self.steps_per_sample, self.point.step);
 }
 
 void BenardRun::save(ArchiveWriter& archive) const {

@@ -21,8 +21,6 @@ using statistics::Estimate;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr Estimate unknown = {not_a_number, not_a_number, not_a_number, 0};
-// Below this the replicas contradict their own error bars.
-constexpr double least_believable_p_value = 1e-3;
 // A flow whose field has less kinetic energy than this share of the particles' own stands still.
 constexpr double frozen_share = 1e-3;
 
@@ -134,11 +132,7 @@ std::vector<std::string> warnings_of(const BenardPoint& point, const BenardRow& 
   std::vector<std::string> warnings;
   if (replicas > 1 && all_replicas_alike(point))
     warnings.emplace_back("all replicas are the same, since start.disorder is 0: the first alone counts");
-  if (spread.p_value < least_believable_p_value)
-    warnings.push_back(fmt::format(
-        "the replicas differ by more than their error bars allow (chi squared {:.3g} for {} degree{} of freedom, "
-        "p = {:.1g}): do not believe the error bar, run longer",
-        spread.chi_squared, spread.degrees_of_freedom, spread.degrees_of_freedom == 1 ? "" : "s", spread.p_value));
+  if (spread.contradicts_errors()) warnings.push_back(spread_warning(spread));
   const double stored = row[benard_quantity("stored")].value;
   const double given = row[benard_quantity("nusselt_hot")].value;
   if (row.failure.empty() && std::abs(stored) > 0.05 * std::abs(given))

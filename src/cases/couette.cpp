@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/pacing.hpp"
 #include "cases/refusals.hpp"
 #include "cases/seeds.hpp"
 #include "lucy/cases/start_state.hpp"
@@ -20,9 +21,6 @@ namespace {
 constexpr double default_sample_interval = 0.5;
 constexpr double most_samples = 20000.0;
 constexpr double fewest_samples = 10.0;
-constexpr std::int64_t most_steps_per_sample = 1'000'000'000;
-
-std::int64_t steps_in(double time, double step) { return std::llround(time / step); }
 
 double kinetic_energy(const motion::Start<2>& start) {
   double sum = 0.0;
@@ -42,16 +40,8 @@ int sample_steps(const CouettePoint& point) {
   if (interval <= 0.0) {
     interval = std::max(default_sample_interval, point.duration / most_samples);
     interval = std::min(interval, point.duration / fewest_samples);
-    // Frames fall on sample boundaries: a whole number of samples between frames.
-    if (point.frame_interval > 0.0) {
-      const std::int64_t between = std::max<std::int64_t>(1, steps_in(point.frame_interval, point.step));
-      auto steps =
-          std::clamp<std::int64_t>(steps_in(interval, point.step), 1, std::min(between, most_steps_per_sample));
-      while (between % steps != 0) --steps;
-      return static_cast<int>(steps);
-    }
   }
-  return static_cast<int>(std::clamp<std::int64_t>(steps_in(interval, point.step), 1, most_steps_per_sample));
+  return interval_steps(interval, point.frame_interval, point.step);
 }
 
 void validate(const CouettePoint& point) {
@@ -134,9 +124,7 @@ struct CouetteRun::Implementation {
     return Trajectory(kernel, start, shear, point.integrator, watch, Team(threads), point.reading);
   }
 
-  std::int64_t intervals(double time) const {
-    return static_cast<std::int64_t>(std::ceil(time / (steps_per_sample * point.step) - 1e-6));
-  }
+  std::int64_t intervals(double time) const { return intervals_in(time, steps_per_sample, point.step); }
 
   Sample observe() const {
     const double volume = trajectory.volume();
@@ -214,9 +202,8 @@ Frame CouetteRun::frame() const {
 
 bool CouetteRun::frame_due() const {
   const Implementation& self = *self_;
-  if (self.point.frame_interval <= 0.0 || self.done < self.equilibration_intervals) return false;
-  const std::int64_t between = steps_in(self.point.frame_interval, self.point.step) / self.steps_per_sample;
-  return (self.done - self.equilibration_intervals) % between == 0;
+  return frame_falls_on(self.done - self.equilibration_intervals, self.point.frame_interval, self.steps_per_sample,
+                        self.point.step);
 }
 
 void CouetteRun::save(ArchiveWriter& archive) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases/recorded_series.hpp"
+#include "lucy/cases/place_of.hpp"
 
 namespace lucy::cases {
 
@@ -19,11 +20,7 @@ using statistics::Estimate;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr Estimate unknown = {not_a_number, not_a_number, not_a_number, 0};
 
-consteval std::size_t observable(std::string_view name) {
-  for (std::size_t i = 0; i < observables.size(); ++i)
-    if (observables[i] == name) return i;
-  throw "no such observable";
-}
+consteval std::size_t observable(std::string_view name) { return place_of(observables, name); }
 
 double shear_stress(const Sample& sample) {
   return sample[observable("pxy_kinetic")] + sample[observable("pxy_potential")];

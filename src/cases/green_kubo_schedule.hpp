@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "lucy/cases/green_kubo.hpp"
+#include "lucy/cases/place_of.hpp"
 
 namespace lucy::cases {
 
@@ -24,11 +25,7 @@ std::int64_t preparation_intervals(const GreenKuboPoint& point);
 std::int64_t equilibration_intervals(const GreenKuboPoint& point);
 
 /// Place of a name in sampled_quantities; a wrong name does not compile.
-consteval std::size_t sampled(std::string_view name) {
-  for (std::size_t i = 0; i < sampled_quantities.size(); ++i)
-    if (sampled_quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t sampled(std::string_view name) { return place_of(sampled_quantities, name); }
 
 /// Whether a pair of the point names this quantity.
 bool names_in_pairs(const GreenKuboPoint& point, std::string_view name);

@@ -5,13 +5,17 @@
 // `sample_interval`; a quantity is a function of one sample.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lucy/statistics/equilibration.hpp"
+#include "lucy/statistics/pooling.hpp"
 
 namespace lucy::cases {
 
@@ -55,6 +59,14 @@ std::vector<std::size_t> equilibration_cuts(std::span<const Record> replicas, co
   };
   (look_at(quantities), ...);
   return cuts;
+}
+
+/// What a reader has to know of replicas that contradict their own error bars.
+inline std::string spread_warning(const statistics::ReplicaSpread& spread) {
+  return fmt::format(
+      "the replicas differ by more than their error bars allow (chi squared {:.3g} for {} degree{} of freedom, p = "
+      "{:.1g}): do not believe the error bar, run longer",
+      spread.chi_squared, spread.degrees_of_freedom, spread.degrees_of_freedom == 1 ? "" : "s", spread.p_value);
 }
 
 /// The time that was cut, mean over replicas.

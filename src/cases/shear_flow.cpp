@@ -11,6 +11,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "cases/pacing.hpp"
 #include "cases/refusals.hpp"
 #include "cases/seeds.hpp"
 #include "lucy/errors.hpp"
@@ -24,7 +25,6 @@ using Trajectory = motion::FluidTrajectory<2>;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double usual_sample_interval = 1.0;
 constexpr double fewest_samples = 10.0;
-constexpr double most_steps_per_sample = 1e9;
 constexpr double longest_step = 0.2;
 
 double mean(const std::vector<double>& values) {
@@ -32,7 +32,7 @@ double mean(const std::vector<double>& values) {
 }
 
 std::int64_t intervals(const ShearFlowPoint& point, double time) {
-  return static_cast<std::int64_t>(std::ceil(time / (sample_steps(point) * point.step) - 1e-6));
+  return intervals_in(time, sample_steps(point), point.step);
 }
 
 double density_wave(const Trajectory& trajectory) {
@@ -109,14 +109,7 @@ int sample_steps(const ShearFlowPoint& point) {
   const double interval = point.sample_interval > 0.0
                               ? point.sample_interval
                               : std::min(usual_sample_interval, point.duration / fewest_samples);
-  auto steps = std::clamp<std::int64_t>(std::llround(interval / point.step), 1,
-                                        static_cast<std::int64_t>(most_steps_per_sample));
-  if (point.frame_interval > 0.0) {
-    const std::int64_t between = std::max<std::int64_t>(1, std::llround(point.frame_interval / point.step));
-    steps = std::min(steps, between);
-    while (between % steps != 0) --steps;
-  }
-  return static_cast<int>(steps);
+  return interval_steps(interval, point.frame_interval, point.step);
 }
 
 std::int64_t equilibration_intervals(const ShearFlowPoint& point) { return intervals(point, point.equilibration); }
@@ -223,25 +216,13 @@ const ShearFlowRecord& ShearFlowRun::record() const { return self_->record; }
 const motion::FluidTrajectory<2>& ShearFlowRun::trajectory() const { return self_->trajectory; }
 
 Frame ShearFlowRun::frame() const {
-  const Trajectory& trajectory = self_->trajectory;
-  const auto box = trajectory.box();
-  Frame frame;
-  frame.step = self_->done * self_->steps_per_sample;
-  frame.time = static_cast<double>(frame.step) * self_->point.step;
-  frame.offset = box.offset();
-  frame.box = box.lengths();
-  frame.position = trajectory.positions();
-  frame.momentum = trajectory.velocities();
-  frame.internal_energy = trajectory.energies();
-  return frame;
+  return frame_of(self_->trajectory, self_->done * self_->steps_per_sample, self_->point.step);
 }
 
 bool ShearFlowRun::frame_due() const {
   const Implementation& self = *self_;
-  const std::int64_t recorded = self.done - equilibration_intervals(self.point);
-  if (self.point.frame_interval <= 0.0 || recorded < 0) return false;
-  const std::int64_t between = std::llround(self.point.frame_interval / self.point.step) / self.steps_per_sample;
-  return recorded % between == 0;
+  return frame_falls_on(self.done - equilibration_intervals(self.point), self.point.frame_interval,
+                        self.steps_per_sample, self.point.step);
 }
 
 void ShearFlowRun::save(ArchiveWriter& archive) const {

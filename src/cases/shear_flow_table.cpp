@@ -97,9 +97,6 @@ ShearFlowRow row_head(const ShearFlowPoint& point, double duration) {
   return row;
 }
 
-// Below this the replicas contradict their own error bars.
-constexpr double least_believable_p_value = 1e-3;
-
 std::vector<std::string> warnings_of(const ShearFlowRow& row, const statistics::ReplicaSpread& spread) {
   std::vector<std::string> warnings;
   if (row[shear_flow_quantity("density_wave")].value > homogeneous_density_wave)
@@ -107,11 +104,7 @@ std::vector<std::string> warnings_of(const ShearFlowRow& row, const statistics::
         fmt::format("the flow is not homogeneous: it has fallen into bands, a dense, cool one that is sheared slowly "
                     "and a thin, hot one that is sheared fast (density_wave {:.2f}); the values are those of the whole",
                     row[shear_flow_quantity("density_wave")].value));
-  if (spread.p_value < least_believable_p_value)
-    warnings.push_back(fmt::format(
-        "the replicas differ by more than their error bars allow (chi squared {:.3g} for {} degree{} of "
-        "freedom, p = {:.1g}): do not believe the error bar, run longer",
-        spread.chi_squared, spread.degrees_of_freedom, spread.degrees_of_freedom == 1 ? "" : "s", spread.p_value));
+  if (spread.contradicts_errors()) warnings.push_back(spread_warning(spread));
   const statistics::Estimate& made = row[shear_flow_quantity("heating")];
   const statistics::Estimate& removed = row[shear_flow_quantity("heat_removed")];
   const double apart = std::abs(made.value - removed.value);

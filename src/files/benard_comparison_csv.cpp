@@ -30,12 +30,6 @@ double rayleigh_of(const Line& line) {
   return *all.particles.settings.rayleigh;
 }
 
-/// One unit of the last digit of a plain decimal: 0.00340 gives 1e-5.
-double last_digit_of(std::string_view text) {
-  const std::size_t point = text.find('.');
-  return point == std::string_view::npos ? 1.0 : std::pow(10.0, -static_cast<double>(text.size() - point - 1));
-}
-
 const std::vector<std::string> published_columns = {
     "particles", "equation_of_state", "side", "height", "width", "hot", "cold", "rayleigh", "kinetic_energy", "source"};
 
@@ -105,7 +99,7 @@ std::vector<cases::PublishedBenard> read_published_benard(const std::filesystem:
     convection.cold = positive("cold");
     convection.rayleigh = positive("rayleigh");
     print.kinetic_energy.value = positive("kinetic_energy");
-    print.kinetic_energy.last_digit = last_digit_of(cells.text("kinetic_energy"));
+    print.kinetic_energy.last_digit = unit_of_last_digit(cells.text("kinetic_energy"));
     print.source = cells.text("source");
   }
   return prints;

@@ -11,6 +11,7 @@
 
 #include "choice_names.hpp"
 #include "lucy/files/table_text.hpp"
+#include "row_remarks.hpp"
 #include "text_layout.hpp"
 
 namespace lucy::files {
@@ -149,14 +150,7 @@ std::string format_benard(std::span<const BenardRow> rows) {
   text += '\n' + legend(rows);
   if (std::ranges::any_of(rows, [](const BenardRow& row) { return row.status == cases::RowStatus::too_short; }))
     text += wrapped("short: ", "too short for an error bar of everything, or not steady.");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string where = fmt::format("row {} ({})", i + 1, benard_label(rows[i].settings));
-    for (const std::string& warning : rows[i].warnings)
-      text += wrapped("warning: ", fmt::format("{}: {}", where, warning));
-    if (rows[i].status == cases::RowStatus::failed)
-      text += wrapped("failed: ", fmt::format("{}{}{}", where, rows[i].failure.empty() ? "" : ": ", rows[i].failure));
-  }
-  return text;
+  return text + remarks_on(rows, [](const BenardRow& row) { return benard_label(row.settings); });
 }
 
 }  // namespace lucy::files

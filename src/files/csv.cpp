@@ -124,4 +124,15 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+double unit_of_last_digit(std::string_view text) {
+  const std::size_t exponent_mark = std::min(text.find_first_of("eE"), text.size());
+  const std::string_view mantissa = text.substr(0, exponent_mark);
+  const std::size_t point = mantissa.find('.');
+  int power = point == std::string_view::npos ? 0 : -static_cast<int>(mantissa.size() - point - 1);
+  if (exponent_mark < text.size())
+    power += static_cast<int>(parse_number(text.substr(exponent_mark + 1)).value_or(0.0));
+  // From text, since 1e-4 as a decimal constant is nearer to the truth than a power computed in steps.
+  return parse_number(fmt::format("1e{}", power)).value_or(0.0);
+}
+
 }  // namespace lucy::files

@@ -53,18 +53,6 @@ std::optional<IndexEntry> find_in_index(const std::filesystem::path& directory, 
   return std::nullopt;
 }
 
-/// One unit of the last digit written: 0.4849 gives 1e-4, 28 gives 1, 1.5e-3 gives 1e-4.
-double unit_of_last_digit(std::string_view text) {
-  const std::size_t exponent_mark = std::min(text.find_first_of("eE"), text.size());
-  const std::string_view mantissa = text.substr(0, exponent_mark);
-  const std::size_t point = mantissa.find('.');
-  int power = point == std::string_view::npos ? 0 : -static_cast<int>(mantissa.size() - point - 1);
-  if (exponent_mark < text.size())
-    power += static_cast<int>(parse_number(text.substr(exponent_mark + 1)).value_or(0.0));
-  // From text, since 1e-4 as a decimal constant is nearer to the truth than a power computed in steps.
-  return parse_number(fmt::format("1e{}", power)).value_or(0.0);
-}
-
 /// A cell as printed; an empty one stays unpublished.
 PublishedCell printed_cell(const CsvFile& file, const CsvFile::Row& cells, std::size_t column) {
   PublishedCell cell;

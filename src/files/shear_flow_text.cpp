@@ -11,6 +11,7 @@
 
 #include "choice_names.hpp"
 #include "lucy/files/table_text.hpp"
+#include "row_remarks.hpp"
 #include "text_layout.hpp"
 
 namespace lucy::files {
@@ -131,14 +132,7 @@ std::string format_shear_flow(std::span<const ShearFlowRow> rows) {
     text += wrapped("short: ",
                     "too short for an error bar, or not steady: the fluid changes all along the run, as it does for "
                     "ever without cooling.");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string where = fmt::format("row {} ({})", i + 1, shear_flow_label(rows[i].settings));
-    for (const std::string& warning : rows[i].warnings)
-      text += wrapped("warning: ", fmt::format("{}: {}", where, warning));
-    if (rows[i].status == cases::RowStatus::failed)
-      text += wrapped("failed: ", fmt::format("{}{}{}", where, rows[i].failure.empty() ? "" : ": ", rows[i].failure));
-  }
-  return text;
+  return text + remarks_on(rows, [](const ShearFlowRow& row) { return shear_flow_label(row.settings); });
 }
 
 }  // namespace lucy::files

@@ -30,6 +30,7 @@ std::string size_text(double value) {
 
 std::string verdict_word(const VerdictLine& line) {
   if (!line.judged) return "shown";
+  if (std::isnan(line.difference)) return "UNKNOWN";
   return line.agrees() ? "agrees" : "DIFFERS";
 }
 
@@ -94,8 +95,9 @@ std::string format_verdict(std::span<const VerdictLine> lines, const std::string
   }
   const auto judged = std::ranges::count_if(lines, [](const VerdictLine& line) { return line.judged; });
   const auto differing = std::ranges::count_if(lines, [](const VerdictLine& line) { return !line.agrees(); });
-  text += differing == 0 ? fmt::format("\nBoth engines agree in all of {} lines.\n", judged)
-                         : fmt::format("\nThe engines differ in {} of {} lines.\n", differing, judged);
+  text += differing == 0
+              ? fmt::format("\nBoth engines agree in all of {} lines.\n", judged)
+              : fmt::format("\nThe engines differ, or could not be compared, in {} of {} lines.\n", differing, judged);
   return text;
 }
 

@@ -12,6 +12,21 @@
 
 namespace lucy::motion {
 
+namespace {
+
+template <int D>
+void refuse_start_outside(const FluidStart<D>& start) {
+  for (int d = 0; d < D; ++d) {
+    if (!start.walls.across[d]) continue;
+    for (std::size_t i = 0; i < start.position.size(); ++i)
+      if (!(start.position[i][d] >= 0.0 && start.position[i][d] <= start.lengths[d]))
+        throw BadInput(fmt::format("particle {} starts at {:.6g}, outside of the walls at 0 and {:.6g}", i,
+                                   start.position[i][d], start.lengths[d]));
+  }
+}
+
+}  // namespace
+
 template <int D>
 FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStart<D>& start, double strain_rate,
                                     Cooling cooling, const Watch& watch, const Team& team)
@@ -42,7 +57,7 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
   renew_list(0.0);
   prepare(now_, near_.age());
   start_energy_ = energy();
-  power_of_walls_ = find_power_of_walls();
+  find_power_of_walls();
   if (cooling_ == Cooling::isoenergetic && !(internal_energy_ > 0.0)) {
     throw BadInput(
         fmt::format("isoenergetic cooling takes heat in proportion to the internal energy, and so needs a fluid that "
@@ -50,17 +65,6 @@ FluidTrajectory<D>::FluidTrajectory(const spam::Fluid<D>& fluid, const FluidStar
                     internal_energy_));
   }
   refuse_impossible_particles();
-}
-
-template <int D>
-void FluidTrajectory<D>::refuse_start_outside(const FluidStart<D>& start) const {
-  for (int d = 0; d < D; ++d) {
-    if (!start.walls.across[d]) continue;
-    for (std::size_t i = 0; i < start.position.size(); ++i)
-      if (!(start.position[i][d] >= 0.0 && start.position[i][d] <= start.lengths[d]))
-        throw BadInput(fmt::format("particle {} starts at {:.6g}, outside of the walls at 0 and {:.6g}", i,
-                                   start.position[i][d], start.lengths[d]));
-  }
 }
 
 template <int D>
@@ -195,7 +199,7 @@ void FluidTrajectory<D>::reflect_at_walls(double dt) {
   reflections_ += crossed;
   renew_list(dt);
   prepare(now_, near_.age());
-  power_of_walls_ = find_power_of_walls();
+  find_power_of_walls();
 }
 
 template <int D>
@@ -250,16 +254,16 @@ void FluidTrajectory<D>::advance(double dt) {
 }
 
 template <int D>
-std::array<spam::WallExchange, 2 * D> FluidTrajectory<D>::find_power_of_walls() const {
-  if (!walls_.any()) return {};
+void FluidTrajectory<D>::find_power_of_walls() {
+  if (!walls_.any()) return;
   const auto images = near_.images(near_.age());
-  return fluid_.wall_exchange(particles_at(now_.columns, images), team_);
+  power_of_walls_ = fluid_.wall_exchange(particles_at(now_.columns, images), team_);
 }
 
 template <int D>
 void FluidTrajectory<D>::count_what_walls_gave(double dt) {
   const auto before = power_of_walls_;
-  power_of_walls_ = find_power_of_walls();
+  find_power_of_walls();
   for (std::size_t wall = 0; wall < before.size(); ++wall) {
     given_by_walls_[wall].conduction += 0.5 * dt * (before[wall].conduction + power_of_walls_[wall].conduction);
     given_by_walls_[wall].work += 0.5 * dt * (before[wall].work + power_of_walls_[wall].work);
@@ -275,7 +279,7 @@ std::vector<double> FluidTrajectory<D>::positions() const {
 
 template <int D>
 FieldPlaces<D> FluidTrajectory<D>::field_places() const {
-  FieldPlaces<D> places{near_.box(), cell().corner(), near_.wrapped_positions(now_.columns), velocities(), energies()};
+  FieldPlaces<D> places{near_.box(), near_.wrapped_positions(now_.columns), velocities(), energies()};
   std::visit(
       [&](const auto& state) {
         for (const spam::WallParticle& at : walls_.particles()) {

@@ -29,9 +29,6 @@ namespace {
 using files::format_plain;
 namespace fs = std::filesystem;
 
-// Below this the replicas contradict their own error bars.
-constexpr double least_believable_p_value = 1e-3;
-
 /// One line on what the watch over the energy saw, over all rows that did not fail.
 std::string energy_note(const std::vector<PointResult>& results) {
   double worst = 0.0;
@@ -62,7 +59,7 @@ std::vector<std::string> notes_on(const std::vector<cases::CouettePoint>& points
   std::vector<std::string> notes;
   if (std::string note = energy_note(results); !note.empty()) notes.push_back(std::move(note));
   for (std::size_t i = 0; i < results.size(); ++i)
-    if (results[i].row.spread.p_value < least_believable_p_value)
+    if (results[i].row.spread.contradicts_errors())
       notes.push_back(
           fmt::format("Warning: {}: the replicas differ by more than their error bars allow (chi squared {} for "
                       "{} degrees\nof freedom, p = {}): do not believe the error bar, run longer.",

@@ -90,10 +90,10 @@ TEST(EngineVerdict, FourStandardErrorsAreTheLimit) {
   EXPECT_FALSE(line(-1.1).agrees());
 }
 
-TEST(EngineVerdict, WhatHasNoErrorBarIsShownAndNotJudged) {
-  const VerdictLine line = compare_estimates("p", "q", {1.0, nan, nan, 0}, {9.0, 0.1, 100.0, 50});
-  EXPECT_FALSE(line.judged);
-  EXPECT_TRUE(line.agrees());
+TEST(EngineVerdict, WhatHasNoErrorBarDoesNotAgree) {
+  const VerdictLine line = compare_estimates("p", "q", {1.0, nan, nan, 0}, {1.0, 0.1, 100.0, 50});
+  EXPECT_TRUE(line.judged);
+  EXPECT_FALSE(line.agrees());
 }
 
 TEST(EngineVerdict, ADifferenceThatIsNotKnownDiffers) {

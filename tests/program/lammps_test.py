@@ -169,7 +169,7 @@ class Run(LammpsTest):
 
 class Check(LammpsTest):
     def test_a_small_check_agrees_and_is_printed_again(self):
-        arguments = ("check", "small.toml", "--out", "c", "--set", "run.duration=150")
+        arguments = ("check", "small.toml", "--out", "c", "--set", "run.duration=600")
         first = self.lammps(*arguments)
         self.assertIn("Both engines agree", first.stdout)
         with open(self.folder / "c/verdict.csv", newline="") as file:
@@ -186,15 +186,18 @@ class Check(LammpsTest):
         for engine in ("lucy", "lammps"):
             self.assertEqual(len(self.rows(f"c/{engine}")), 5)
 
-    def test_a_line_that_differs_is_told_and_ends_with_one(self):
-        self.lammps("check", "small.toml", "--out", "c", "--set", "run.duration=20")
+    def test_a_line_that_differs_or_has_no_error_bar_is_told_and_ends_with_one(self):
+        arguments = ("check", "small.toml", "--out", "c", "--set", "run.duration=20")
+        short = self.lucy("lammps", *arguments)
+        self.assertEqual(short.returncode, 1)
+        self.assertIn("UNKNOWN", short.stdout)
         verdict = self.folder / "c/verdict.csv"
         text = verdict.read_text().splitlines()
         cells = text[1].split(",")
         cells[6] = "0.1"
         text[1] = ",".join(cells)
         verdict.write_text("\n".join(text) + "\n")
-        again = self.lucy("lammps", "check", "small.toml", "--out", "c", "--set", "run.duration=20")
+        again = self.lucy("lammps", *arguments)
         self.assertEqual(again.returncode, 1)
         self.assertIn("DIFFERS", again.stdout)
 

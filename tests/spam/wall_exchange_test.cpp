@@ -54,7 +54,7 @@ class Walled {
     fluid_.evaluate(given(), team_);
   }
 
-  std::array<WallExchange, 2 * D> exchange() const { return fluid_.wall_exchange(given(), team_); }
+  std::array<WallExchange, 2 * D> exchange() { return fluid_.wall_exchange(given(), team_); }
 
   /// Of the particles: sum of v.a + e'.
   double energy_rate() const {
@@ -168,7 +168,7 @@ TEST(WallExchange, AndThePowerOfGravityAreAllTheEnergyThatTheFluidGains) {
     for (const bool sides : {false, true}) {
       for (const auto& fluid : fluids()) {
         const auto crowd = heated(kind, sides, 62);
-        const Walled<2> walled(fluid, crowd);
+        Walled<2> walled(fluid, crowd);
         double given = 0.0;
         for (const auto& velocity : crowd.velocity)
           given += fluid.gravity[0] * velocity[0] + fluid.gravity[1] * velocity[1];
@@ -189,7 +189,7 @@ TEST(WallExchange, BalancesInOneAndInThreeDimensions) {
     const Fluid<1> thin{kernel::Lucy<1>(2.5), IdealGas(), all_transport, {}, {}};
     auto line = disordered<1>({20.0}, kind, {0}, 63);
     (*line.walls.across[0])[1].temperature = 0.5;
-    const Walled<1> in_line(thin, line);
+    Walled<1> in_line(thin, line);
     double given = 0.0;
     for (const auto& wall : in_line.exchange()) given += wall.conduction + wall.work;
     EXPECT_NEAR(given, in_line.energy_rate(), 1e-12);
@@ -198,7 +198,7 @@ TEST(WallExchange, BalancesInOneAndInThreeDimensions) {
     auto box = disordered<3>({5.0, 4.0, 5.0}, kind, {0, 1, 2}, 64);
     (*box.walls.across[2])[1] = {{0.3, -0.2, 0.0}, 0.5, {}};
     (*box.walls.across[0])[0] = {{0.0, 0.5, 0.0}, 1.0, {}};
-    const Walled<3> in_box(thick, box);
+    Walled<3> in_box(thick, box);
     given = 0.0;
     for (const auto& wall : in_box.exchange()) given += wall.conduction + wall.work;
     EXPECT_NEAR(given, in_box.energy_rate(), 1e-11);

@@ -27,6 +27,7 @@
 #include "lucy/archive.hpp"
 #include "lucy/cases/convection.hpp"
 #include "lucy/cases/frame.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/kernel/weight.hpp"
 #include "lucy/measure/fields.hpp"
 #include "lucy/motion/fluid_trajectory.hpp"
@@ -111,16 +112,8 @@ struct BenardSample {
 };
 
 /// Places in these; a wrong name does not compile.
-consteval std::size_t benard_average(std::string_view name) {
-  for (std::size_t i = 0; i < benard_averages.size(); ++i)
-    if (benard_averages[i] == name) return i;
-  throw "no such average";
-}
-consteval std::size_t benard_instant(std::string_view name) {
-  for (std::size_t i = 0; i < benard_instants.size(); ++i)
-    if (benard_instants[i] == name) return i;
-  throw "no such instant";
-}
+consteval std::size_t benard_average(std::string_view name) { return place_of(benard_averages, name); }
+consteval std::size_t benard_instant(std::string_view name) { return place_of(benard_instants, name); }
 
 /// The particles at one moment, by number; vectors as x0 y0 x1 y1 ...; x and y from the corner of the cell.
 struct BenardParticles {

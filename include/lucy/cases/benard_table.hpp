@@ -17,6 +17,7 @@
 
 #include "lucy/cases/benard.hpp"
 #include "lucy/cases/couette_table.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/statistics/pooling.hpp"
 
 namespace lucy::cases {
@@ -35,11 +36,7 @@ inline constexpr auto benard_quantities = [] {
   return names;
 }();
 
-consteval std::size_t benard_quantity(std::string_view name) {
-  for (std::size_t i = 0; i < benard_quantities.size(); ++i)
-    if (benard_quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t benard_quantity(std::string_view name) { return place_of(benard_quantities, name); }
 
 struct BenardRow {
   BenardPoint settings;   ///< resolved

@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "lucy/cases/couette.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/statistics/pooling.hpp"
 
 namespace lucy::cases {
@@ -27,11 +28,7 @@ inline constexpr std::array<std::string_view, 11> quantities = {
     "pyy_kinetic",      "pyy_potential",       "viscosity",   "normal_stress", "largest_kinetic_share"};
 
 /// Place of a name in `quantities`; a wrong name does not compile.
-consteval std::size_t quantity(std::string_view name) {
-  for (std::size_t i = 0; i < quantities.size(); ++i)
-    if (quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t quantity(std::string_view name) { return place_of(quantities, name); }
 
 /// `too_short` (in files: short): some quantity could not be given an error bar (a sheared flow without a thermostat,
 /// which heats up for ever, never has any), or a target_relative_error was asked for and not reached. `failed`: see

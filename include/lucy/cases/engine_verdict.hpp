@@ -64,7 +64,7 @@ std::vector<VerdictLine> compare_points(const std::string& part, const PointSums
                                         const PointAllowance& allowed);
 
 /// Averages with errors; four combined standard errors are allowed. Where a value or an error is missing on either side
-/// (a short run), the line is not judged.
+/// (a short run), they do not agree.
 VerdictLine compare_estimates(const std::string& part, const std::string& quantity, const statistics::Estimate& lucy,
                               const statistics::Estimate& other);
 

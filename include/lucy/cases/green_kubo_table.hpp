@@ -57,6 +57,7 @@
 
 #include "lucy/cases/couette_table.hpp"
 #include "lucy/cases/green_kubo.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/statistics/pooling.hpp"
 
 namespace lucy::cases {
@@ -74,11 +75,7 @@ inline constexpr std::array<std::string_view, 18> green_kubo_quantities = {
     "pressure_kinetic",    "pressure_potential",    "potential_energy",
     "shear_modulus",       "self_diffusion",        "thermal_conductivity"};
 
-consteval std::size_t green_kubo_quantity(std::string_view name) {
-  for (std::size_t i = 0; i < green_kubo_quantities.size(); ++i)
-    if (green_kubo_quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t green_kubo_quantity(std::string_view name) { return place_of(green_kubo_quantities, name); }
 
 /// One row of viscosity.csv (reduced units). What is not known is nan.
 struct GreenKuboRow {

@@ -33,6 +33,7 @@
 
 #include "lucy/archive.hpp"
 #include "lucy/cases/couette.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/motion/settings.hpp"
 #include "lucy/motion/start.hpp"
 #include "lucy/motion/trajectory.hpp"
@@ -131,11 +132,7 @@ inline constexpr std::array<std::string_view, 24> isomorphism_quantities = {"ato
 using IsomorphismSample = std::array<double, isomorphism_quantities.size()>;
 
 /// Place of a name in `isomorphism_quantities`; a wrong name does not compile.
-consteval std::size_t isomorphism_quantity(std::string_view name) {
-  for (std::size_t i = 0; i < isomorphism_quantities.size(); ++i)
-    if (isomorphism_quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t isomorphism_quantity(std::string_view name) { return place_of(isomorphism_quantities, name); }
 
 /// What one replica has found so far.
 struct IsomorphismRecord {

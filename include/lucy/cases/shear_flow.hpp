@@ -31,6 +31,7 @@
 #include "lucy/archive.hpp"
 #include "lucy/cases/fluid_settings.hpp"
 #include "lucy/cases/frame.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/motion/fluid_trajectory.hpp"
 
 namespace lucy::cases {
@@ -88,16 +89,8 @@ struct ShearFlowSample {
 };
 
 /// Places in these; a wrong name does not compile.
-consteval std::size_t shear_flow_average(std::string_view name) {
-  for (std::size_t i = 0; i < shear_flow_averages.size(); ++i)
-    if (shear_flow_averages[i] == name) return i;
-  throw "no such average";
-}
-consteval std::size_t shear_flow_instant(std::string_view name) {
-  for (std::size_t i = 0; i < shear_flow_instants.size(); ++i)
-    if (shear_flow_instants[i] == name) return i;
-  throw "no such instant";
-}
+consteval std::size_t shear_flow_average(std::string_view name) { return place_of(shear_flow_averages, name); }
+consteval std::size_t shear_flow_instant(std::string_view name) { return place_of(shear_flow_instants, name); }
 
 /// The recorded part of one replica and what was noticed on the way.
 struct ShearFlowRecord {

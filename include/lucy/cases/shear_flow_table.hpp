@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "lucy/cases/couette_table.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/cases/shear_flow.hpp"
 #include "lucy/statistics/pooling.hpp"
 
@@ -38,11 +39,7 @@ inline constexpr auto shear_flow_quantities = [] {
 }();
 
 /// Place of a name in `shear_flow_quantities`; a wrong name does not compile.
-consteval std::size_t shear_flow_quantity(std::string_view name) {
-  for (std::size_t i = 0; i < shear_flow_quantities.size(); ++i)
-    if (shear_flow_quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t shear_flow_quantity(std::string_view name) { return place_of(shear_flow_quantities, name); }
 
 /// One row of shear_flow.csv (reduced units): the settings that tell rows apart, then what was measured.
 struct ShearFlowRow {

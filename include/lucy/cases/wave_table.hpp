@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "lucy/cases/couette_table.hpp"
+#include "lucy/cases/place_of.hpp"
 #include "lucy/cases/wave.hpp"
 #include "lucy/statistics/decay_forms.hpp"
 #include "lucy/statistics/pooling.hpp"
@@ -50,11 +51,7 @@ inline constexpr std::array<std::string_view, 13> wave_quantities = {
     "operator_factor", "operator",     "rest",    "carried",         "total",          "integral", "tail_share",
     "fitted",          "yield_stress", "modulus", "relaxation_time", "particle_noise", "pressure"};
 
-consteval std::size_t wave_quantity(std::string_view name) {
-  for (std::size_t i = 0; i < wave_quantities.size(); ++i)
-    if (wave_quantities[i] == name) return i;
-  throw "no such quantity";
-}
+consteval std::size_t wave_quantity(std::string_view name) { return place_of(wave_quantities, name); }
 
 /// "pressure_forces", or "heating" of temperature waves.
 std::string_view rest_name(WaveQuantity quantity);

@@ -61,4 +61,7 @@ std::string shortest_text(double value);
 /// The whole of `text` as a number, or nothing.
 std::optional<double> parse_number(std::string_view text);
 
+/// One unit of the last digit written: 0.4849 gives 1e-4, 28 gives 1, 1.5e-3 gives 1e-4.
+double unit_of_last_digit(std::string_view text);
+
 }  // namespace lucy::files

@@ -53,11 +53,10 @@ struct FluidStart {
   space::Walls<D> walls{};                 ///< none: periodic
 };
 
-/// Places that take part in a fluid's fields, x0 y0 x1 y1 ... in the box around its cell.
+/// Places that take part in a fluid's fields, x0 y0 x1 y1 ... in the box around its cell (space/walls.hpp).
 template <int D>
 struct FieldPlaces {
   space::Box<D> box;
-  space::Vector<D> corner{};     ///< of the cell, in the box
   std::vector<double> position;  ///< of the particles, by number, then of those that stand for walls
   std::vector<double> velocity;
   std::vector<double> energy;  ///< internal, per mass; at walls that of the wall's temperature
@@ -151,10 +150,9 @@ class FluidTrajectory {
   double largest_acceleration() const;
   bool list_lasts(double dt);
   bool try_step(double dt);
-  std::array<spam::WallExchange, 2 * D> find_power_of_walls() const;
+  void find_power_of_walls();
   void count_what_walls_gave(double dt);
   void reflect_at_walls(double dt);
-  void refuse_start_outside(const FluidStart<D>& start) const;
   void refuse_impossible_particles() const;
   std::string why_stuck(bool near, double piece) const;
 

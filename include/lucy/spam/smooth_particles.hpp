@@ -73,8 +73,9 @@ class SmoothParticles {
   /// sum_{i<j} f_x,ij y_ij: V times the xy component of the pairs' share of the pressure tensor. Without a meaning
   /// between walls, whose particles are counted.
   double virial_xy() const { return virial_xy_; }
-  /// What the walls give, see wall_exchange.hpp; of the state last evaluated, by wall number.
-  std::array<WallExchange, 2 * D> wall_exchange(const Particles<D>& particles, const Team& team) const;
+  /// What the walls give, see wall_exchange.hpp, by wall number; of the state that was just evaluated, with the list it
+  /// was evaluated with.
+  std::array<WallExchange, 2 * D> wall_exchange(const Particles<D>& particles, const Team& team);
   /// V times the average over the volume of the Newtonian stress -eta (dv_x/dy + dv_y/dx): sum_i m (P_xy/rho)_i.
   double viscous_stress_xy(std::size_t slots, std::span<const WallParticle> walls = {}) const;
 
@@ -111,6 +112,7 @@ class SmoothParticles {
   space::Columns mean_factor_;  // rho^(-1/2) or rho: what the gradients carry
   space::Columns deformation_;
   space::Columns stress_;  // P/rho^2, one column or the lower triangle; then Q/rho^2
+  space::Columns wall_;    // of wall_exchange()
   space::Columns acceleration_;
   space::Columns energy_rate_;
   double virial_xy_ = 0.0;

@@ -12,10 +12,12 @@
 // they do to its motion is heat. The energy of the fluid balances only with both.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "lucy/pairs/lanes.hpp"
 #include "lucy/pairs/traverse.hpp"
+#include "lucy/spam/rates.hpp"
 
 namespace lucy::spam {
 
@@ -27,45 +29,50 @@ struct WallExchange {
   double both() const { return conduction + work; }
 };
 
-/// The pair sum. Carries velocities, the lower triangle of P/rho^2, Q/rho^2, and 0 for a particle of the fluid, 1 + its
-/// number for that of a wall; totals conduction and work wall by wall.
-template <int D, class Kernel>
+/// The pair sum: that of the rates, from which it takes force and heat. Carries what that carries, and 0 for a particle
+/// of the fluid, 1 + its number for that of a wall; totals conduction and work wall by wall.
+template <int D, class Kernel, Carried contents>
 struct WallExchangeSum {
-  static constexpr int stresses = D * (D + 1) / 2;
-  static constexpr int carried = D + stresses + D + 1;
+  using Rates = RateSum<D, Kernel, contents>;
+  static constexpr int wall = Rates::carried;
+  static constexpr int carried = Rates::carried + 1;
   static constexpr int lab_velocity = -1;
   static constexpr int given = 0;
   static constexpr int totals = 4 * D;
-  static constexpr pairs::Keeping keeping = pairs::Keeping::nothing;
+  static constexpr pairs::Keeping keeping = pairs::Keeping::finds;  // the slope
 
-  Kernel kernel;
+  Rates rates;
 
   void operator()(const pairs::Pair<D, carried>& pair, std::array<pairs::Lanes, 0>&, std::array<pairs::Lanes, 0>&,
                   std::array<pairs::Lanes, totals>& sums) const {
-    constexpr int flux = D + stresses;
-    constexpr int wall = flux + D;
     // Far from walls there is nothing to do.
     const pairs::Lanes& of_i = pair.of_i[wall];
     const pairs::Lanes& of_j = pair.of_j[wall];
-    pairs::Lanes sign = 0.0;
-    pairs::simd::where(of_i == 0.0 && of_j > 0.0, sign) = 1.0;
-    pairs::simd::where(of_j == 0.0 && of_i > 0.0, sign) = -1.0;
-    if (pairs::simd::none_of(sign != 0.0)) return;
+    pairs::Lanes into_fluid = 0.0;  // the sign of what i gets
+    pairs::simd::where(of_i == 0.0 && of_j > 0.0, into_fluid) = 1.0;
+    pairs::simd::where(of_j == 0.0 && of_i > 0.0, into_fluid) = -1.0;
+    if (pairs::simd::none_of(into_fluid != 0.0)) return;
 
-    const pairs::Lanes slope = sign * kernel.slope(pair.distance);
-    pairs::Lanes heat = 0.0;   // from j to i
-    pairs::Lanes power = 0.0;  // f_ij . (v_i + v_j)
-    for (int a = 0; a < D; ++a) {
-      for (int b = 0; b < D; ++b) {
-        const int s = D + (a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a);
-        power += (pair.of_i[s] + pair.of_j[s]) * pair.displacement[b] * (pair.of_i[a] + pair.of_j[a]);
-      }
-      heat += (pair.of_i[flux + a] + pair.of_j[flux + a]) * pair.displacement[a];
-    }
+    pairs::Pair<D, Rates::carried> of_rates;
+    of_rates.displacement = pair.displacement;
+    of_rates.kept = pair.kept;
+    std::copy_n(pair.of_i.begin(), Rates::carried, of_rates.of_i.begin());
+    std::copy_n(pair.of_j.begin(), Rates::carried, of_rates.of_j.begin());
+    std::array<pairs::Lanes, Rates::given> to_i;
+    std::array<pairs::Lanes, Rates::given> to_j;
+    std::array<pairs::Lanes, Rates::totals> virial;
+    virial.fill(0.0);
+    rates(of_rates, to_i, to_j, virial);
+
+    // The energy rates are -f_ij . (v_i - v_j)/2 + h_ij and the same with -h_ij.
+    const pairs::Lanes heat = into_fluid * 0.5 * (to_i[D] - to_j[D]);
+    pairs::Lanes work = 0.5 * (to_i[D] + to_j[D]);
+    for (int d = 0; d < D; ++d) work += to_i[d] * pair.of_i[d];
+    work *= into_fluid;
     for (int number = 0; number < 2 * D; ++number) {
       const auto of_this_wall = of_i + of_j == pairs::Lanes(1.0 + number);
-      pairs::simd::where(of_this_wall, sums[2 * number]) += slope * heat;
-      pairs::simd::where(of_this_wall, sums[2 * number + 1]) += 0.5 * slope * power;
+      pairs::simd::where(of_this_wall, sums[2 * number]) += heat;
+      pairs::simd::where(of_this_wall, sums[2 * number + 1]) += work;
     }
   }
 };

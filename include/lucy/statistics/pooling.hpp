@@ -36,7 +36,10 @@ Estimate pooled_mean(std::span<const std::vector<double>> replicas);
 struct ReplicaSpread {
   double chi_squared = 0.0;    ///< nan when it cannot be given
   int degrees_of_freedom = 0;  ///< replicas - 1
-  double p_value = 0.0;        ///< nan when it cannot be given; below 0.001 the error bars are not to be believed
+  double p_value = 0.0;        ///< nan when it cannot be given
+
+  /// Then the error bars are not to be believed.
+  bool contradicts_errors() const { return p_value < 1e-3; }
 };
 
 /// nan for fewer than two replicas, or when none has an error of its own.
