@@ -85,7 +85,8 @@ TableRow summarize(const CouettePoint& point, double duration, std::span<const C
   TableRow row = row_head(point, recorded_time(duration, replicas), static_cast<int>(replicas.size()));
   const std::vector<std::size_t> cuts = cuts_of(replicas);
   for (const CouetteRecord& record : replicas) {
-    row.worst_energy_error = std::max(row.worst_energy_error, record.worst_energy_error);
+    if (!std::isnan(row.worst_energy_error) && !(record.worst_energy_error <= row.worst_energy_error))
+      row.worst_energy_error = record.worst_energy_error;  // not known of one: not known of all
     row.subdivided_steps += record.subdivided_steps;
   }
   row.equilibration_discarded = discarded_time<CouetteRecord>(replicas, cuts);

@@ -155,6 +155,11 @@ GreenKuboResult summarize_series(const SampledSeries& series) {
     if (!(value > 0.0) || !std::isfinite(value))
       throw BadInput(fmt::format("the {} of the stress series is {}, and must be above 0", name, value));
   };
+  for (const auto& [name, values] :
+       {std::pair("P_xy", &series.pxy), std::pair("(P_xx - P_yy)/2", &series.stress_difference)})
+    if (samples > 1 && values->front() != 0.0 && std::ranges::count(*values, values->front()) == std::ssize(*values))
+      throw BadInput(
+          fmt::format("{} of the stress series is {} in every sample: it does not fluctuate", name, values->front()));
   above_zero("sample interval", series.sample_interval);
   above_zero("volume", series.volume);
   above_zero("kinetic temperature", series.kinetic_temperature);

@@ -125,8 +125,8 @@ SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::st
   });
 }
 
-std::string resolved_toml(const SweepInput& input) {
-  return resolved_input("a sweep", sweep_schema(), input, point_keys());
+std::string resolved_toml(const SweepInput& input, std::string_view what) {
+  return resolved_input(what, sweep_schema(), input, point_keys());
 }
 
 }  // namespace lucy::files

@@ -308,12 +308,12 @@ TableError table_error(const kernel::Lucy<2>& kernel, double density) {
   return error;
 }
 
-LammpsSeries read_lammps_series(const fs::path& path) {
+cases::EngineSeries read_lammps_series(const fs::path& path) {
   const ColumnFile file = read_columns(path);
   const auto column = [&](std::string_view name) -> const std::vector<double>& {
     return file.columns[find_column(file, name, path)];
   };
-  LammpsSeries series;
+  cases::EngineSeries series;
   series.time = column("time");
   series.energy = column("energy");
   series.heat = column("heat");
@@ -325,7 +325,7 @@ LammpsSeries read_lammps_series(const fs::path& path) {
   return series;
 }
 
-cases::CouetteRecord record_of(const LammpsSeries& series, const cases::CouettePoint& point) {
+cases::CouetteRecord record_of(const cases::EngineSeries& series, const cases::CouettePoint& point) {
   const int between = series_steps(point);
   const int rows = std::max(1, cases::sample_steps(point) / between);
   cases::CouetteRecord record;

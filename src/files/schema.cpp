@@ -414,6 +414,10 @@ std::string toml_text(const Value& value) {
   return text + "\"";
 }
 
+std::string resolved_heading(std::string_view what) {
+  return fmt::format("# The resolved input of {}, as Lucy ran it; it can be run again as it is.", what);
+}
+
 std::string resolved_text(const Schema& schema, const std::map<std::string, Value>& whole,
                           const std::vector<std::map<std::string, Value>>& rows) {
   const auto value_in = [](const std::map<std::string, Value>& values, const std::string& path) {

@@ -373,12 +373,11 @@ Input read_input(const std::filesystem::path& file, std::span<const std::string>
 
 /// `what` was run: "a sweep".
 template <class Input, class Row>
-std::string resolved_input(const std::string& what, const Schema& schema, const Input& input,
+std::string resolved_input(std::string_view what, const Schema& schema, const Input& input,
                            const std::vector<BoundKey<Row>>& keys) {
   std::vector<std::map<std::string, Value>> rows;
   for (const Row& point : input.points) rows.push_back(values_of(point, keys));
-  return "# The resolved input of " + what + ", as Lucy ran it; it can be run again as it is.\n\n" +
-         resolved_text(schema, values_of(input, whole_keys<Input>()), rows);
+  return resolved_heading(what) + "\n\n" + resolved_text(schema, values_of(input, whole_keys<Input>()), rows);
 }
 
 }  // namespace lucy::files

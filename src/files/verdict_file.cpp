@@ -28,10 +28,16 @@ std::string size_text(double value) {
   return std::abs(value) < 1e-4 ? fmt::format("{:.1e}", value) : format_plain(value, 3);
 }
 
-std::string verdict_word(const VerdictLine& line) {
+std::string_view verdict_word(const VerdictLine& line) {
   if (!line.judged) return "shown";
-  if (std::isnan(line.difference)) return "UNKNOWN";
-  return line.agrees() ? "agrees" : "DIFFERS";
+  if (std::isnan(line.difference)) return "unknown";
+  return line.agrees() ? "agrees" : "differs";
+}
+
+/// What asks for a reader's attention stands in capitals.
+std::string loud(std::string_view word) {
+  if (word == "unknown") return "UNKNOWN";
+  return word == "differs" ? "DIFFERS" : std::string(word);
 }
 
 }  // namespace
@@ -47,7 +53,7 @@ void write_verdict_csv(const std::filesystem::path& path, std::span<const Verdic
                  line.add(value);
                line.add(of.in_standard_errors ? std::string_view("standard errors") : std::string_view("absolute"));
                line.add(of.judged ? std::string_view("yes") : std::string_view("no"));
-               line.add(of.agrees() ? std::string_view("agrees") : std::string_view("differs"));
+               line.add(verdict_word(of));
              });
 }
 
@@ -74,13 +80,14 @@ std::string format_verdict(std::span<const VerdictLine> lines, const std::string
     const VerdictLine& line = lines[i];
     if (line.part != part) headings.push_back(i);
     part = line.part;
-    const auto in_unit = [&](double value) {
+    const auto in_unit = [&](double value) -> std::string {
+      if (std::isnan(value)) return "";
       return line.in_standard_errors ? fmt::format("{} s.e.", signed_errors(value)) : size_text(value);
     };
     table.add({"  " + line.quantity, value_text(line.lucy, line.lucy_error), value_text(line.other, line.other_error),
                in_unit(line.difference),
                line.in_standard_errors ? format_plain(line.allowed) + " s.e." : size_text(line.allowed),
-               verdict_word(line)});
+               loud(verdict_word(line))});
   }
   const auto rows = table.lines();
   const std::size_t width = std::ranges::max(rows, {}, &std::string::size).size();

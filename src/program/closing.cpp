@@ -6,6 +6,7 @@
 
 #include "lucy/errors.hpp"
 #include "program/data_directory.hpp"
+#include "program/process.hpp"
 #include "program/python.hpp"
 
 namespace lucy::program {

@@ -187,14 +187,15 @@ int run_program(int argument_count, const char* const* argument_values) {
   request.command_line = words;
   std::string out;
   std::string input;
-  const auto add_input = [&](CLI::App* command) {
+  const auto add_input = [&](CLI::App* command, const char* results = "runs/NAME") {
     command->add_option("INPUT", input, "Input file (TOML)")->required();
     command->add_option("--set", request.overrides, "Set a key of the input file; beats the file; may be repeated")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
-    command->add_option("--out", out, "Directory of the results; default: runs/NAME for an input NAME.toml")
+    command
+        ->add_option("--out", out, fmt::format("Directory of the results; default: {} for an input NAME.toml", results))
         ->type_name("DIR");
     command->set_help_flag("-h,--help", "This text");
   };
@@ -229,7 +230,9 @@ int run_program(int argument_count, const char* const* argument_values) {
   auto* series_option = from_series(
       green_kubo_command->add_option("--from-series", series_file, "File of columns, one row per sample"), "FILE");
   const std::vector<CLI::Option*> series_options = {
-      from_series(green_kubo_command->add_option("--interval", series.interval, "Time between rows"), "TIME"),
+      from_series(green_kubo_command->add_option("--interval", series.interval,
+                                                 "Time between rows; must fit a column time, where there is one"),
+                  "TIME"),
       from_series(green_kubo_command->add_option("--volume", series.volume, "Volume V (in two dimensions, area)"), "V"),
       from_series(green_kubo_command->add_option("--temperature", series.temperature, "kT"), "KT"),
       from_series(green_kubo_command->add_option("--pxy", series.pxy, "Column of Pxy, name or number; default: pxy"),
@@ -446,10 +449,11 @@ int run_program(int argument_count, const char* const* argument_values) {
   };
   auto* export_command =
       lammps_command->add_subcommand("export", "Write the states of a sweep as cases for LAMMPS; run nothing there");
-  add_input(export_command);
+  add_input(export_command, "runs/NAME_lammps");
   export_command->footer(
-      "\nLAMMPS has no ergostat: sheared states get the temperature of a short run of Lucy's, or the one that\n"
-      "system.kinetic_temperature sets.\n"
+      "\nOne replica of each state. LAMMPS has no ergostat: sheared states get the temperature of a short run of "
+      "Lucy's\n"
+      "(run.equilibration and up to 200 time units more), or the one that system.kinetic_temperature sets.\n"
       "\nExamples:\n"
       "  lucy lammps export inputs/quick.toml --out runs/for_lammps\n"
       "  lucy lammps export inputs/quick.toml --set system.particles=1048576 --set system.kinetic_temperature=0.5424 "
@@ -462,16 +466,19 @@ int run_program(int argument_count, const char* const* argument_values) {
   add_lammps(run_command);
   run_command->set_help_flag("-h,--help", "This text");
   run_command->footer(
-      "\nStates that are done are not run again.\n"
+      "\nStates that are done are not run again, whoever ran them and on however many ranks; LAMMPS must be here only\n"
+      "if something is left to run. Interrupted, a state begins again.\n"
       "\nExample:\n"
       "  lucy lammps run runs/for_lammps --ranks 2");
   auto* lammps_check_command = lammps_command->add_subcommand(
       "check", "Compare both engines: single points, trajectories, averages, Green-Kubo");
-  add_input(lammps_check_command);
+  add_input(lammps_check_command, "runs/NAME_lammps_check");
   add_lammps(lammps_check_command);
   lammps_check_command->footer(
       "\nExit code 0: every line agrees; 1: not, or LAMMPS is not installed. Averages may differ by four standard\n"
-      "errors. Of INPUT count particles, the first energy_per_particle, step, equilibration, duration and seed.\n"
+      "errors. Single points, constant energy and Green-Kubo are at the first state of INPUT, without its shear; the "
+      "four\n"
+      "sheared states are E/N = 1 and 0.5 at the rates 0.1 and 0.5, at density 1 and range 3, whatever INPUT sweeps.\n"
       "\nExample:\n"
       "  lucy lammps check inputs/quick.toml");
 

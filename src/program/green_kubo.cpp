@@ -6,7 +6,9 @@
 // that another program sampled, which takes no time worth a checkpoint.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,8 @@ namespace lucy::program {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double off_time = 0.05;  // of an interval: a time of the file is rounded, not another one
 
 Notes notes_of(const std::vector<cases::GreenKuboRow>& rows) { return {failures_of(rows), warnings_of(rows), ""}; }
 
@@ -92,6 +96,19 @@ class GreenKubo final : public CaseExperiment<files::GreenKuboInput, GreenKuboSt
 };
 
 /// The columns that are asked for, or else those with the usual names.
+/// Where the file has a column of times, its rows must follow each other as --interval says.
+void check_times(const files::ColumnFile& file, const SeriesRequest& request) {
+  const auto place = std::ranges::find(file.names, "time") - file.names.begin();
+  if (static_cast<std::size_t>(place) == file.names.size()) return;
+  const auto& time = file.columns[static_cast<std::size_t>(place)];
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    const double expected = time.front() + static_cast<double>(row) * request.interval;
+    if (!(std::abs(time[row] - expected) < off_time * request.interval))
+      throw BadInput(fmt::format("{}: row {} has the time {} where --interval = {} from row 1 on, {}, makes it {:.10g}",
+                                 request.file.string(), row + 1, time[row], request.interval, time.front(), expected));
+  }
+}
+
 cases::SampledSeries sampled_series(const SeriesRequest& request) {
   files::ColumnFile file = files::read_columns(request.file);
   cases::SampledSeries series;
@@ -114,6 +131,7 @@ cases::SampledSeries sampled_series(const SeriesRequest& request) {
     return value;
   };
   series.sample_interval = above_zero("--interval", request.interval);
+  check_times(file, request);
   series.volume = above_zero("--volume", request.volume);
   series.kinetic_temperature = above_zero("--temperature", request.temperature);
   if (request.length) series.length = above_zero("--length", *request.length);

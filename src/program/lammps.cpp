@@ -5,13 +5,17 @@
 // their table.csv. On disk:
 //
 //     DIR/input.toml, point_001/ ...   the resolved input and a case for each state
+//     DIR/export.json                  who wrote it, when and with what
 //     DIR/README.txt                   written last by export
-//     point_001/nve.done               or sheared.done: what has been run; table.csv, written last by run
+//     point_001/nve.done               or sheared.done: by whom it was run; table.csv, written last by run
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -39,6 +43,7 @@ namespace {
 namespace fs = std::filesystem;
 using cases::CouettePoint;
 
+constexpr std::string_view exported = "cases for LAMMPS";
 constexpr double temperature_duration = 200.0;  // kT is known to a part in a thousand then, at N = 1024
 
 constexpr std::string_view readme =
@@ -94,7 +99,30 @@ void refuse_what_lammps_cannot(const CouettePoint& point) {
         "\"nose-hoover\" is needed");
 }
 
+/// Only cases of `lucy lammps export` end in a table: a directory of another command holds another one's.
+files::SweepInput read_export(const fs::path& directory) {
+  std::error_code error;
+  for (const char* name : {"README.txt", "input.toml"})
+    if (!fs::exists(directory / name, error))
+      throw BadInput(fmt::format("{} holds no finished `lucy lammps export`: {} is missing", directory.string(), name));
+  const fs::path file = directory / "input.toml";
+  if (!files::read_text_file(file).starts_with(files::resolved_heading(exported)))
+    throw BadInput(fmt::format("{} is not that of a `lucy lammps export`", file.string()));
+  return files::read_sweep(file);
+}
+
+/// "LAMMPS 29 Sep 2021 - Update 2, 2 ranks"
+std::string engine_text(const FinishedJob& job) {
+  if (job.ranks == 0) return fmt::format("LAMMPS {}, run elsewhere", job.version);
+  return fmt::format("LAMMPS {}, {} rank{}", job.version, job.ranks, job.ranks == 1 ? "" : "s");
+}
+
 }  // namespace
+
+LammpsJob main_job(const fs::path& folder, const CouettePoint& point, int ranks) {
+  const std::string script = point.strain_rate == 0.0 ? "nve" : "sheared";
+  return {folder, script, {}, ranks, files::lammps_steps(point), files::series_steps(point)};
+}
 
 std::string case_folder_name(std::size_t index) { return fmt::format("point_{:03}", index + 1); }
 
@@ -106,9 +134,7 @@ CouettePoint handed_over(const CouettePoint& point) {
   return one;
 }
 
-std::string script_of(const CouettePoint& point) { return point.strain_rate == 0.0 ? "nve" : "sheared"; }
-
-void write_lammps_provenance(const fs::path& directory, const std::vector<std::string>& command_line,
+void write_lammps_provenance(const fs::path& file, const std::vector<std::string>& command_line,
                              const std::string& engine, int threads, std::uint64_t seed,
                              std::chrono::system_clock::time_point started, const std::vector<double>& seconds) {
   files::Provenance provenance = provenance_of(command_line);
@@ -120,16 +146,17 @@ void write_lammps_provenance(const fs::path& directory, const std::vector<std::s
   provenance.finished = std::chrono::system_clock::now();
   provenance.wall_seconds_of_this_session = std::chrono::duration<double>(provenance.finished - started).count();
   provenance.wall_seconds_of_points = seconds;
-  files::write_provenance(directory / "provenance.json", provenance);
+  files::write_provenance(file, provenance);
 }
 
 int lammps_export(const InputRequest& request) {
   const files::SweepInput input = files::read_sweep(request.input, request.overrides);
   for (const CouettePoint& point : input.points) refuse_what_lammps_cannot(point);
-  const std::string resolved = files::resolved_toml(input);
+  const std::string resolved = files::resolved_toml(input, exported);
   const fs::path directory = request.out.value_or(default_directory(request));
   const auto look = [&] { return look_at_directory(directory, resolved, "LAMMPS case", "README.txt"); };
   const bool again = look() == DirectoryState::finished;
+  const auto started = std::chrono::system_clock::now();
   if (!again) {
     make_directory(directory);
     const files::DirectoryLock lock(directory);
@@ -152,79 +179,81 @@ int lammps_export(const InputRequest& request) {
       make_directory(directory / case_folder_name(i));
       files::write_lammps_case(directory / case_folder_name(i), one);
     }
+    write_lammps_provenance(directory / "export.json", request.command_line, "", available_cores(),
+                            input.points.front().seed, started, {});
     files::write_file_atomically(directory / "README.txt", readme);
   }
   print("{} state{} for LAMMPS in {}{}.\n", input.points.size(), input.points.size() == 1 ? "" : "s",
         directory.string(), again ? ", exported before; nothing was written" : "");
+  if (std::ranges::any_of(input.points, [](const CouettePoint& point) { return point.replicas > 1; }))
+    print("One replica of each: run.replicas counts for Lucy alone.\n");
   print("Run them with: lucy lammps run {}\n", directory.string());
   return 0;
 }
 
 int lammps_run(const LammpsRunRequest& request) {
   const fs::path& directory = request.directory;
-  std::error_code error;
-  if (!fs::exists(directory / "README.txt", error) || !fs::exists(directory / "input.toml", error))
-    throw BadInput(fmt::format("{} holds no finished `lucy lammps export` (README.txt and input.toml are missing)",
-                               directory.string()));
   if (request.ranks < 1 || request.ranks > 100000)
     throw BadInput(fmt::format("--ranks = {} must be a whole number from 1 on", request.ranks));
-  const files::SweepInput input = files::read_sweep(directory / "input.toml");
-  const Lammps lammps(request.lammps);
+  const files::SweepInput input = read_export(directory);
   const files::DirectoryLock lock(directory);
   const auto started = std::chrono::system_clock::now();
   note_interrupts();
   Console console;
   SharedLine status;
+  std::optional<Lammps> lammps;  // needed only where something is left to run
   std::vector<cases::TableRow> rows;
-  std::vector<double> seconds;
+  std::vector<FinishedJob> jobs;
   {
     const Progress progress(console, [&] { return status.get(); });
     for (std::size_t i = 0; i < input.points.size(); ++i) {
       const CouettePoint point = handed_over(input.points[i]);
-      const LammpsJob job{directory / case_folder_name(i), script_of(point), {}, request.ranks};
-      const fs::path series = job.folder / (job.script + "_series.dat");
-      const auto steps = static_cast<double>(files::lammps_steps(point));
-      const auto begin = std::chrono::steady_clock::now();
-      const auto watch = [&] {
-        const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        status.set(fmt::format("{}/{} states  {}: {:.0f} %  {}", i + 1, input.points.size(), point_label(point),
-                               100.0 * last_step_of(series) / steps, duration_text(elapsed)));
-        return !interrupt_noted();
-      };
-      const bool done_here = fs::exists(job.folder / (job.script + ".done"), error);
-      // On a cluster, say, by hand: the final state is written last of all.
-      const bool done_elsewhere = !done_here && fs::exists(job.folder / (job.script + "_final.data"), error) &&
-                                  last_step_of(series) > steps - files::series_steps(point);
-      if (!done_here && !done_elsewhere) fs::remove(series, error);
-      const auto took =
-          done_elsewhere ? std::optional(std::numeric_limits<double>::quiet_NaN()) : lammps.run_once(job, watch);
-      if (!took) {
-        console.say("interrupted; the same command goes on with the state that was running");
+      const LammpsJob job = main_job(directory / case_folder_name(i), point, request.ranks);
+      std::optional<FinishedJob> finished = finished_job(job);
+      if (!finished) {
+        if (!lammps) lammps.emplace(request.lammps);
+        const auto begin = std::chrono::steady_clock::now();
+        finished = lammps->run(job, [&] {
+          const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+          const double done = last_step_of(job.series()) / static_cast<double>(job.steps);
+          const std::string left = done > 0.0 ? ", " + duration_text(elapsed * (1.0 - done) / done) + " left" : "";
+          status.set(fmt::format("{}/{} states  {}: {:.0f} %{}", i + 1, input.points.size(), point_label(point),
+                                 100.0 * done, left));
+          return !interrupt_noted();
+        });
+      }
+      if (!finished) {
+        console.say("interrupted; the same command runs this state again, from its beginning, and then the others");
         return 1;
       }
-      const cases::CouetteRecord recorded = files::record_of(files::read_lammps_series(series), point);
+      const cases::CouetteRecord recorded = files::record_of(files::read_lammps_series(job.series()), point);
       rows.push_back(cases::summarize(point, point.duration, std::span(&recorded, 1)));
-      seconds.push_back(*took);
+      jobs.push_back(*finished);
     }
   }
-  write_lammps_provenance(
-      directory, request.command_line,
-      fmt::format("LAMMPS {}, {} rank{}", lammps.version(), request.ranks, request.ranks == 1 ? "" : "s"),
-      request.ranks, input.points.front().seed, started, seconds);
+  std::vector<double> seconds;
+  std::vector<std::string> engines;
+  for (const FinishedJob& job : jobs) {
+    seconds.push_back(job.seconds);
+    engines.push_back(engine_text(job));
+  }
+  std::ranges::sort(engines);
+  engines.erase(std::ranges::unique(engines).begin(), engines.end());
+  const std::string engine = fmt::format("{}", fmt::join(engines, "; "));
+  write_lammps_provenance(directory / "provenance.json", request.command_line, engine, request.ranks,
+                          input.points.front().seed, started, seconds);
   files::write_table_csv(directory / "table.csv", rows);
   print("{}\n", files::format_table(rows));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CouettePoint& point = input.points[i];
-    if (std::isnan(seconds[i])) {
+    const auto steps = static_cast<double>(files::lammps_steps(point));
+    if (std::isnan(seconds[i]))
       print("{}: had been run elsewhere.\n", point_label(point));
-      continue;
-    }
-    print("{}: {} steps in {}, {:.0f} ns per particle and step.\n", point_label(point), files::lammps_steps(point),
-          duration_text(seconds[i]),
-          1e9 * seconds[i] / static_cast<double>(files::lammps_steps(point)) / static_cast<double>(point.particles));
+    else
+      print("{}: {:.0f} steps in {}, {:.0f} ns per particle and step.\n", point_label(point), steps,
+            duration_text(seconds[i]), 1e9 * seconds[i] / steps / static_cast<double>(point.particles));
   }
-  print("LAMMPS {} on {} rank{}. Energies are not fixed under shear: kT is.\n", lammps.version(), request.ranks,
-        request.ranks == 1 ? "" : "s");
+  print("{}. Energies are not fixed under shear: kT is.\n", engine);
   print_files(directory, {"table.csv", "input.toml", "provenance.json", "README.txt"});
   return 0;
 }

@@ -39,11 +39,11 @@ std::string case_folder_name(std::size_t index);
 /// A point of an input as it is handed over: one replica of the stated duration.
 cases::CouettePoint handed_over(const cases::CouettePoint& point);
 
-/// "nve" or "sheared".
-std::string script_of(const cases::CouettePoint& point);
+/// The run that ends in a row of a table: nve.in, or sheared.in where the rate is not zero.
+LammpsJob main_job(const std::filesystem::path& folder, const cases::CouettePoint& point, int ranks = 1);
 
-/// Writes provenance.json of a run of LAMMPS.
-void write_lammps_provenance(const std::filesystem::path& directory, const std::vector<std::string>& command_line,
+/// Writes the record of what was done for or with LAMMPS; `engine`: which one it was, if any.
+void write_lammps_provenance(const std::filesystem::path& file, const std::vector<std::string>& command_line,
                              const std::string& engine, int threads, std::uint64_t seed,
                              std::chrono::system_clock::time_point started, const std::vector<double>& seconds);
 

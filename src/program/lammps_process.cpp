@@ -5,16 +5,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <chrono>
 #include <fstream>
 #include <limits>
+#include <span>
+#include <sstream>
 #include <system_error>
 
 #include "lucy/errors.hpp"
 #include "lucy/files/atomic_file.hpp"
+#include "lucy/files/checkpoint.hpp"
 #include "lucy/files/csv.hpp"
-#include "program/python.hpp"
+#include "program/process.hpp"
 
 namespace lucy::program {
 
@@ -36,6 +39,8 @@ std::string version_of(const std::string& program) {
   return answer.output.substr(first, answer.output.find('\n', first) - first);
 }
 
+fs::path log_of(const LammpsJob& job) { return job.folder / (job.script + ".log"); }
+
 /// The line of a log that tells of an error; empty when there is none.
 std::string error_in(const fs::path& log) {
   std::ifstream file(log);
@@ -44,6 +49,18 @@ std::string error_in(const fs::path& log) {
   while (std::getline(file, line))
     if (line.starts_with("ERROR")) found = line;
   return found;
+}
+
+/// mpirun frames its complaints and says what matters first.
+std::string first_paragraph(const std::string& text) {
+  std::istringstream lines(text);
+  std::string paragraph;
+  for (std::string line; std::getline(lines, line);) {
+    const bool has_word = std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; });
+    if (!has_word && !paragraph.empty()) break;
+    if (has_word) paragraph += (paragraph.empty() ? "mpirun: " : " ") + line;
+  }
+  return paragraph;
 }
 
 std::vector<std::string> command_of(const std::string& program, const LammpsJob& job) {
@@ -60,6 +77,41 @@ std::vector<std::string> command_of(const std::string& program, const LammpsJob&
   return words;
 }
 
+fs::path record_of(const LammpsJob& job) { return job.folder / (job.script + ".done"); }
+fs::path final_state_of(const LammpsJob& job) { return job.folder / (job.script + "_final.data"); }
+
+/// Whether the last row of the series is that of the last step.
+bool series_is_whole(const LammpsJob& job) {
+  return job.steps == 0 || last_step_of(job.series()) > static_cast<double>(job.steps - job.series_steps);
+}
+
+/// Of all that determines what the job does.
+std::string checksum_of(const LammpsJob& job) {
+  std::uint64_t sum = 0;
+  const auto add = [&](const std::string& text) { sum = files::crc64(std::as_bytes(std::span(text)), sum); };
+  for (const auto& name : {job.script + ".in", std::string("start.data"), std::string("lucy.table")})
+    add(files::read_text_file(job.folder / name));
+  for (const auto& [name, value] : job.variables) add(fmt::format("-var {} {}\n", name, value));
+  return fmt::format("CRC-64 {:016x}", sum);
+}
+
+std::string record_text(const FinishedJob& finished, const LammpsJob& job) {
+  return fmt::format("{}\n{}\n{} ranks\n{} seconds\n", finished.version, checksum_of(job), finished.ranks,
+                     finished.seconds);
+}
+
+/// "29 Sep 2021", from the title of a data file that LAMMPS wrote.
+std::string version_in(const fs::path& data_file) {
+  std::ifstream file(data_file);
+  std::string title;
+  std::getline(file, title);
+  constexpr std::string_view before = "version ";
+  const std::size_t begin = title.find(before);
+  if (begin == std::string::npos) return "of a version that is not known";
+  const std::size_t first = begin + before.size();
+  return title.substr(first, title.find(',', first) - first);
+}
+
 }  // namespace
 
 Lammps::Lammps(const std::optional<fs::path>& given) {
@@ -67,15 +119,32 @@ Lammps::Lammps(const std::optional<fs::path>& given) {
       given ? std::vector{given->string()} : std::vector<std::string>{"lmp", "lmp_mpi", "lmp_serial", "lammps"};
   for (const auto& candidate : candidates) {
     version_ = version_of(candidate);
-    program_ = candidate;
+    // Jobs run in folders of their own; a bare name is looked up on PATH.
+    program_ = candidate.find('/') == std::string::npos ? candidate : fs::absolute(candidate).string();
     if (!version_.empty()) return;
   }
   if (given) throw RunFailed(fmt::format("{} is not LAMMPS: it does not say its version after -h", given->string()));
   throw RunFailed(fmt::format("LAMMPS is not installed (no lmp on PATH): {}", how_to_install));
 }
 
-std::optional<double> Lammps::run(const LammpsJob& job, const std::function<bool()>& goes_on) const {
-  const auto words = command_of(program_, job);
+std::optional<FinishedJob> finished_job(const LammpsJob& job) {
+  std::error_code error;
+  if (!series_is_whole(job)) return std::nullopt;
+  if (!fs::exists(record_of(job), error)) {
+    if (job.steps == 0 || !fs::exists(final_state_of(job), error)) return std::nullopt;
+    return FinishedJob{version_in(final_state_of(job)), 0, std::numeric_limits<double>::quiet_NaN()};
+  }
+  FinishedJob finished;
+  std::string checksum;
+  std::ifstream file(record_of(job));
+  std::string unit;
+  if (!std::getline(file, finished.version) || !std::getline(file, checksum) || checksum != checksum_of(job) ||
+      !(file >> finished.ranks >> unit >> finished.seconds))
+    return std::nullopt;
+  return finished;
+}
+
+std::optional<FinishedJob> Lammps::run(const LammpsJob& job, const std::function<bool()>& goes_on) const {
   bool stopped = false;
   CommandSettings settings;
   settings.folder = job.folder;
@@ -83,32 +152,28 @@ std::optional<double> Lammps::run(const LammpsJob& job, const std::function<bool
     stopped = stopped || !goes_on();
     return !stopped;
   };
+  // What an earlier run left must not be taken for this one's.
   std::error_code error;
-  fs::remove(job.folder / (job.script + ".log"), error);  // an old error must not be taken for a new one
+  for (const fs::path& old : {record_of(job), final_state_of(job), job.series(), log_of(job)}) fs::remove(old, error);
   const auto begin = std::chrono::steady_clock::now();
-  const CommandResult result = run_command(words, std::numeric_limits<double>::infinity(), settings);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (result.succeeded) return seconds;
-  if (stopped || !goes_on()) return std::nullopt;
-  const std::string told = error_in(job.folder / (job.script + ".log"));
-  throw RunFailed(fmt::format("LAMMPS could not run {}: {}", (job.folder / (job.script + ".in")).string(),
-                              told.empty() ? result.complaint : told));
-}
-
-std::optional<double> Lammps::run_once(const LammpsJob& job, const std::function<bool()>& goes_on) const {
-  const fs::path record = job.folder / (job.script + ".done");
-  std::string what = fmt::format("LAMMPS {}\n{}\n", version_, shell_text(command_of("lmp", job)));
-  std::error_code error;
-  if (fs::exists(record, error)) {
-    const std::string there = files::read_text_file(record);
-    double seconds = 0.0;
-    if (there.starts_with(what) &&
-        std::from_chars(there.data() + what.size(), there.data() + there.size(), seconds).ec == std::errc())
-      return seconds;
+  const CommandResult result =
+      run_command(command_of(program_, job), std::numeric_limits<double>::infinity(), settings);
+  const std::string script = (job.folder / (job.script + ".in")).string();
+  if (!result.succeeded) {
+    if (stopped || !goes_on()) return std::nullopt;
+    std::string told = error_in(log_of(job));
+    if (told.empty()) told = job.ranks > 1 ? first_paragraph(result.errors) : result.complaint;
+    throw RunFailed(fmt::format("LAMMPS could not run {}: {}", script, told.empty() ? result.complaint : told));
   }
-  const auto seconds = run(job, goes_on);
-  if (seconds) files::write_file_atomically(record, what + fmt::format("{} seconds\n", *seconds));
-  return seconds;
+  if (!series_is_whole(job))
+    throw RunFailed(fmt::format("LAMMPS ran {} without complaint, but its series ends at step {:.0f} of {}", script,
+                                last_step_of(job.series()), job.steps));
+  FinishedJob finished;
+  finished.version = version_;
+  finished.ranks = job.ranks;
+  finished.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  files::write_file_atomically(record_of(job), record_text(finished, job));
+  return finished;
 }
 
 double last_step_of(const fs::path& series) {

@@ -4,6 +4,7 @@
 // LAMMPS as another program: where it is, what version it is, and a script of files/lammps_case.hpp run by it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -19,7 +20,23 @@ struct LammpsJob {
   std::string script;                                               ///< "nve": nve.in
   std::vector<std::pair<std::string, std::string>> variables = {};  ///< set with -var
   int ranks = 1;                                                    ///< more than one: by mpirun
+  std::int64_t steps = 0;  ///< of the series that it writes, SCRIPT_series.dat; 0: it writes none
+  int series_steps = 1;    ///< between the rows of the series
+
+  std::filesystem::path series() const { return folder / (script + "_series.dat"); }
 };
+
+/// A job that has been run to its end.
+struct FinishedJob {
+  std::string version;   ///< of LAMMPS
+  int ranks = 0;         ///< 0: not known, it was run by somebody else
+  double seconds = 0.0;  ///< nan: not known
+};
+
+/// What is known of the job's last run, if that was of this very case (script, variables, start and table, by their
+/// checksum) and the series is whole. Run by hand or on another machine it counts too: LAMMPS writes SCRIPT_final.data
+/// last of all.
+std::optional<FinishedJob> finished_job(const LammpsJob& job);
 
 class Lammps {
  public:
@@ -30,13 +47,9 @@ class Lammps {
   /// "29 Sep 2021 - Update 2"
   const std::string& version() const { return version_; }
 
-  /// Runs the job and waits for it, calling `goes_on` several times a second, which stops it by returning false.
-  /// Returns the seconds that it took, from start to end; nothing when it was stopped. Throws RunFailed with the words
-  /// of LAMMPS.
-  std::optional<double> run(const LammpsJob& job, const std::function<bool()>& goes_on) const;
-
-  /// The same, unless the folder says that this job has been done, by this version of LAMMPS.
-  std::optional<double> run_once(const LammpsJob& job, const std::function<bool()>& goes_on) const;
+  /// Runs the job from its beginning and waits for it, calling `goes_on` several times a second, which stops it by
+  /// returning false; nothing is returned then. Throws RunFailed with the words of LAMMPS.
+  std::optional<FinishedJob> run(const LammpsJob& job, const std::function<bool()>& goes_on) const;
 
  private:
   std::string program_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -173,6 +174,14 @@ TEST(CouetteTable, SaysNothingMeasuredOfAFailedPoint) {
   }
   EXPECT_TRUE(std::isnan(row.effective_samples));
   EXPECT_TRUE(std::isnan(row.worst_energy_error));
+}
+
+TEST(CouetteTable, AnEnergyErrorThatOneReplicaDoesNotKnowIsNotKnown) {
+  for (const std::size_t which : {0u, 1u, 2u}) {
+    auto unknown = records(3, 4000);
+    unknown[which].worst_energy_error = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(summarize(couette_point(0.1), 2000.0, unknown).worst_energy_error));
+  }
 }
 
 TEST(CouetteTable, GivesEachReplicaItsOwnError) {

@@ -462,6 +462,8 @@ TEST(GreenKuboTable, RefusesSeriesThatMakeNoSense) {
   };
   refused([](SampledSeries& series) { series.pxy.clear(), series.stress_difference.clear(); });
   refused([](SampledSeries& series) { series.pxy.pop_back(); });
+  refused([](SampledSeries& series) { std::ranges::fill(series.pxy, 0.3); });
+  refused([](SampledSeries& series) { std::ranges::fill(series.stress_difference, -0.3); });
   refused([](SampledSeries& series) { series.sample_interval = 0.0; });
   refused([](SampledSeries& series) { series.volume = -1.0; });
   refused([](SampledSeries& series) { series.kinetic_temperature = std::nan(""); });

@@ -88,7 +88,7 @@ TEST(LammpsCase, ASeriesBecomesTheRecordOfAReplica) {
     text += fmt::format(" 1 2 3 {} {} 0\n", 1000 - row, 2 * row);
   }
   put(scratch / "series", text);
-  const LammpsSeries series = read_lammps_series(scratch / "series");
+  const cases::EngineSeries series = read_lammps_series(scratch / "series");
   ASSERT_EQ(series.time.size(), 61U);
   EXPECT_EQ(series.energy.back(), 940.0);
   EXPECT_EQ(series.heat.back(), 120.0);

@@ -206,6 +206,20 @@ class Series(GreenKuboTest):
         self.run_input(*self.options, "--pxy", "2", "--pxx", "3", "--pyy", "4", "--length", "30", "--out", "x", code=2,
                        says=("x",))
 
+    def test_times_of_the_file_are_compared_with_the_interval(self):
+        rows = [f"{0.2 * i:.1f} {math.sin(0.7 * i)} {math.cos(i)} {math.sin(i * i)}" for i in range(2000)]
+        names = "# time pxy pxx pyy"
+        options = self.options[2:]
+        self.write("even.dat", "\n".join([names, *rows]))
+        self.run_input("--from-series", "even.dat", *options, "--out", "even")
+        for name, lines, says in (("hole", rows[:700] + rows[701:], "row 701"),
+                                  ("twice", rows[:5] + rows[4:], "row 6"),
+                                  ("slower", [row for row in rows[::2]], "row 2")):
+            self.write(f"{name}.dat", "\n".join([names, *lines]))
+            self.run_input("--from-series", f"{name}.dat", *options, "--out", "x", code=2,
+                           says=(f"{name}.dat: {says} has the time", "--interval = 0.2"))
+        self.assertFalse((self.folder / "x").exists())
+
     def test_refusals(self):
         for extra, says in ((["--pxy", "pyx"], "pyx"), (["--pxy", "9"], "9"),
                             (["--pxy", "2", "--pxx", "3", "--difference", "3"], "--difference"),

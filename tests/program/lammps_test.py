@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 
 from running import ProgramTest
@@ -36,6 +37,14 @@ class LammpsTest(ProgramTest):
         self.expect(process, code, *says)
         return process
 
+    def kill_when(self, lucy, happened):
+        """Kills a command as soon as something has happened, which must be before it ends."""
+        while not happened():
+            self.assertIsNone(lucy.poll(), "it had ended before")
+            time.sleep(0.05)
+        lucy.kill()
+        lucy.communicate()
+
     def export(self, *arguments):
         return self.lammps("export", "small.toml", "--out", "x", *arguments)
 
@@ -55,7 +64,8 @@ class LammpsTest(ProgramTest):
 class Export(LammpsTest):
     def test_every_script_runs_in_lammps_as_it_stands(self):
         self.export()
-        self.assertEqual(self.entries("x"), [".lock", "README.txt", "input.toml", "point_001", "point_002"])
+        self.assertEqual(self.entries("x"), [".lock", "README.txt", "export.json", "input.toml", "point_001",
+                                             "point_002"])
         self.assertNotIn("sheared.in", self.entries("x/point_001"))
         for script in ("single_point", "exact_point", "nve"):
             self.run_script("x/point_001", script)
@@ -127,12 +137,85 @@ class Run(LammpsTest):
         self.assertFalse(log.exists())
         self.assertEqual((self.folder / "x/table.csv").read_bytes(), table)
 
-    def test_what_was_run_by_hand_is_taken_as_it_is(self):
+    def test_what_was_run_by_hand_is_taken_as_it_is_and_needs_no_lammps_here(self):
         self.export("--set", "shear.strain_rate=0.5")
         self.run_script("x/point_001", "sheared")
         series = (self.folder / "x/point_001/sheared_series.dat").read_bytes()
-        self.assertIn("run elsewhere", self.lammps("run", "x").stdout)
+        process = self.lammps("run", "x", environment=self.environment(PATH=str(self.folder)))
+        self.assertIn("run elsewhere", process.stdout)
         self.assertEqual((self.folder / "x/point_001/sheared_series.dat").read_bytes(), series)
+        engine = json.loads((self.folder / "x/provenance.json").read_text())["engine"]
+        self.assertRegex(engine, r"LAMMPS \d+ \w+ \d+, run elsewhere")
+
+    def test_other_ranks_are_no_reason_to_run_again(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        self.lammps("run", "x", "--ranks", "2")
+        series = (self.folder / "x/point_001/nve_series.dat").read_bytes()
+        self.assertIn("2 ranks", self.lammps("run", "x").stdout)
+        self.assertEqual((self.folder / "x/point_001/nve_series.dat").read_bytes(), series)
+
+    def test_a_series_that_is_cut_is_run_again(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        self.lammps("run", "x")
+        series = self.folder / "x/point_001/nve_series.dat"
+        whole = series.read_bytes()
+        table = (self.folder / "x/table.csv").read_bytes()
+        series.write_bytes(whole[:len(whole) // 2])
+        self.lammps("run", "x")
+        self.assertEqual(len(series.read_bytes()), len(whole))
+        self.assertEqual((self.folder / "x/table.csv").read_bytes(), table)
+
+    def test_another_script_or_start_is_run_again(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        self.lammps("run", "x")
+        series = self.folder / "x/point_001/nve_series.dat"
+        before = series.read_text()
+        script = self.folder / "x/point_001/nve.in"
+        script.write_text(script.read_text().replace("variable step index 0.05", "variable step index 0.02"))
+        self.lammps("run", "x")
+        self.assertNotEqual(series.read_text(), before)
+
+    def test_killed_it_takes_lammps_along_and_begins_that_state_again(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=50000")
+        lucy = self.start("lammps", "run", "x")
+        series = self.folder / "x/point_001/nve_series.dat"
+        self.kill_when(lucy, lambda: series.exists() and series.stat().st_size > 20000)
+        size = -1
+        while size != series.stat().st_size:
+            size = series.stat().st_size
+            time.sleep(1)  # LAMMPS writes a page of the series several times a second
+        self.assertFalse((self.folder / "x/point_001/nve.done").exists())
+        self.assertLess(self.series("x/point_001/nve_series.dat")[-2]["time"], 50000)
+
+    def test_a_table_that_is_not_of_an_export_is_left_alone(self):
+        self.sweep("small.toml", "--out", "ours")
+        before = (self.folder / "ours/table.csv").read_bytes()
+        self.lammps("export", "small.toml", "--out", "ours", code=2, says=("another input", "sweep"))
+        (self.folder / "ours/README.txt").write_text("mine")
+        self.lammps("run", "ours", code=2, says=("input.toml", "lammps export"))
+        self.assertEqual((self.folder / "ours/table.csv").read_bytes(), before)
+        self.export("--set", "run.duration=20")
+        self.sweep("small.toml", "--set", "run.duration=20", "--out", "x", code=2, says=("another input", "LAMMPS"))
+        self.lammps("check", "small.toml", "--set", "run.duration=20", "--out", "x", code=2, says=("another input",))
+
+    def test_a_program_beside_the_directory_is_found(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/lmp").symlink_to(shutil.which("lmp"))
+        self.lammps("run", "x", "--lammps", "bin/lmp")
+        self.assertEqual(len(self.rows("x")), 1)
+
+    def test_more_ranks_than_cores_end_in_words(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        process = self.lucy("lammps", "run", "x", "--ranks", "5000")
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(process.stderr, r"ranks|slots|processes|resources")
+        self.assertNotIn("-----", process.stderr)
+
+    def test_the_energy_error_of_a_step_is_not_claimed(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        self.lammps("run", "x")
+        self.assertEqual(self.rows("x")[0]["worst_energy_error"], "nan")
 
     def test_two_ranks_end_with_the_same_averages(self):
         self.export("--set", "run.duration=20")
@@ -185,6 +268,35 @@ class Check(LammpsTest):
         self.assertEqual(first.stdout.split("\nLAMMPS 29")[0], again.stdout.split("\nThis check")[0])
         for engine in ("lucy", "lammps"):
             self.assertEqual(len(self.rows(f"c/{engine}")), 5)
+
+    def test_keeps_the_density_and_range_of_the_input_where_the_state_is_the_inputs(self):
+        process = self.lucy("lammps", "check", "small.toml", "--out", "c", "--set", "run.duration=20", "--set",
+                            "system.density=0.5", "--set", "kernel.range=4")
+        self.assertIn("Shear at E/N = 1 and rate 0.1 (density 1 and range 3)", process.stdout)
+        for folder, edge in (("constant_energy", 288**0.5), ("free_point", 288**0.5), ("shear_1_0.5", 12)):
+            text = (self.folder / f"c/{folder}/start.data").read_text()
+            self.assertAlmostEqual(float(re.search(r"\n0 (\S+) xlo xhi", text).group(1)), edge, places=9)
+            table = (self.folder / f"c/{folder}/lucy.table").read_text()
+            self.assertIn("range 3" if edge == 12 else "range 4", table)
+        with open(self.folder / "c/verdict.csv", newline="") as file:
+            lines = [line for line in csv.DictReader(file) if "exact form" in line["part"]]
+        self.assertEqual({line["verdict"] for line in lines}, {"agrees"})
+
+    def test_what_the_input_makes_impossible_is_refused_before_anything_is_written(self):
+        self.lammps("check", "small.toml", "--out", "c", "--set", "system.energy_per_particle=0.3", code=2,
+                    says=("energy_per_particle",))
+        self.assertFalse((self.folder / "c").exists())
+
+    def test_killed_it_goes_on_where_it_was(self):
+        arguments = ("lammps", "check", "small.toml", "--out", "c", "--set", "run.duration=300")
+        lucy = self.start(*arguments)
+        points = self.folder / "c/tasks/single_points/verdict.csv"
+        self.kill_when(lucy, points.exists)
+        before = points.stat().st_mtime_ns
+        process = self.lucy(*arguments)
+        self.assertIn("Shear at E/N = 0.5 and rate 0.5", process.stdout)
+        self.assertEqual(points.stat().st_mtime_ns, before)
+        self.assertEqual(process.returncode, 1 if "UNKNOWN" in process.stdout else 0)
 
     def test_a_line_that_differs_or_has_no_error_bar_is_told_and_ends_with_one(self):
         arguments = ("check", "small.toml", "--out", "c", "--set", "run.duration=20")

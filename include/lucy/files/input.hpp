@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lucy/cases/couette.hpp"
@@ -33,6 +34,7 @@ SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::st
 
 /// The same points as text that read_sweep accepts and that gives back the same bits: what all points share in the
 /// sections, the rest in one [[point]] table each. Threads and checkpoint_interval are left out: they change no result.
-std::string resolved_toml(const SweepInput& input);
+/// `what` was run with it, which no other command may take for its own.
+std::string resolved_toml(const SweepInput& input, std::string_view what = "a sweep");
 
 }  // namespace lucy::files

@@ -56,20 +56,12 @@ int series_steps(const cases::CouettePoint& point);
 /// Steps of a whole run, equilibration included.
 std::int64_t lammps_steps(const cases::CouettePoint& point);
 
-/// A series that LAMMPS wrote.
-struct LammpsSeries {
-  std::vector<double> time;
-  std::vector<cases::Sample> instants;  ///< what cases::observables names
-  std::vector<double> energy;           ///< K + Phi, peculiar
-  std::vector<double> heat;             ///< removed since the start
-};
-
 /// Throws BadInput when the file cannot be read or lacks a column.
-LammpsSeries read_lammps_series(const std::filesystem::path& path);
+cases::EngineSeries read_lammps_series(const std::filesystem::path& path);
 
 /// The same as a replica's record: rows after the point's equilibration, averaged over about the point's sample
 /// interval. The energy error of a step is not known (nan).
-cases::CouetteRecord record_of(const LammpsSeries& series, const cases::CouettePoint& point);
+cases::CouetteRecord record_of(const cases::EngineSeries& series, const cases::CouettePoint& point);
 
 /// What a single point printed, and the forces of its dump. `name`: "single_point" or "exact_point". Throws BadInput
 /// when a file cannot be read.

@@ -174,6 +174,9 @@ std::optional<std::string> nearest_name(std::string_view word, std::span<const s
 /// A value as TOML that reads back with the same bits.
 std::string toml_text(const Value& value);
 
+/// The first line of a resolved input. `what` was run with it: "a sweep".
+std::string resolved_heading(std::string_view what);
+
 /// A file that read_document and expand_rows turn into these rows again: what all rows share in the sections, the rest
 /// in one table per row. A value is absent where the key is unset. `whole`: the values of keys with in_rows false.
 std::string resolved_text(const Schema& schema, const std::map<std::string, Value>& whole,
