@@ -130,6 +130,7 @@ Comparison compare(std::span<const TableRow> ours, const PublishedTable& publish
   Comparison comparison;
   comparison.name = published.name;
   comparison.source = published.source;
+  comparison.in_print = published.in_print;
   for (const TableRow& row : ours) {
     const auto partner =
         std::ranges::find_if(published.rows, [&](const auto& other) { return same_state(row, other); });

@@ -136,7 +136,8 @@ PublishedTable read_printed(const CsvFile& file, const std::optional<IndexEntry>
 PublishedTable read_own(const std::filesystem::path& path) {
   PublishedTable table;
   table.name = path.string();
-  table.source = "a table of Lucy with errors of its own";
+  table.source = "a table with errors of its own";
+  table.in_print = false;
   for (const cases::TableRow& ours : read_table_csv(path)) {
     PublishedRow row;
     row.particles = ours.particles;

@@ -199,7 +199,8 @@ std::string format_table(std::span<const TableRow> rows) {
 
 std::string format_comparison(const Comparison& comparison) {
   std::string text = fmt::format("Ours beside {}: {}\n", comparison.name, comparison.source);
-  TextTable table({"", "ours", "published", "+-", "difference", ""}, 1);
+  const std::string theirs = comparison.in_print ? "published" : "theirs";
+  TextTable table({"", "ours", theirs, "+-", "difference", ""}, 1);
   Footnotes footnotes;
   for (const auto& row : comparison.rows)
     for (const ComparedCell& cell : row.cells)
@@ -210,16 +211,17 @@ std::string format_comparison(const Comparison& comparison) {
   std::size_t next = 1;
   if (!comparison.rows.empty()) text += lines.front() + '\n';
   for (const auto& row : comparison.rows) {
-    text += fmt::format("{}; total time ours {}, published {}{}\n",
+    text += fmt::format("{}; total time ours {}, {} {}{}\n",
                         point_text(row.particles, row.energy_per_particle, row.strain_rate), format_plain(row.our_time),
-                        format_plain(row.published_time), row.instability_region ? "; instability region" : "");
+                        theirs, format_plain(row.published_time), row.instability_region ? "; instability region" : "");
     for (std::size_t i = 0; i < row.cells.size(); ++i) text += lines[next++] + '\n';
   }
 
   if (!comparison.only_ours.empty()) text += "\nOnly in our table:\n";
   for (const auto& row : comparison.only_ours)
     text += fmt::format("  {}\n", point_text(row.particles, row.energy_per_particle, row.strain_rate));
-  if (!comparison.only_published.empty()) text += "\nOnly in the published table:\n";
+  if (!comparison.only_published.empty())
+    text += comparison.in_print ? "\nOnly in the published table:\n" : "\nOnly in theirs:\n";
   for (const auto& row : comparison.only_published)
     text += fmt::format("  {}\n", point_text(row.particles, row.energy_per_particle, row.strain_rate));
   if (!footnotes.texts().empty()) text += '\n';
@@ -227,11 +229,17 @@ std::string format_comparison(const Comparison& comparison) {
     text += wrapped(fmt::format("[{}] ", footnotes.number(footnote)), footnote);
 
   text +=
-      "\ndifference: (ours - published) over the combined standard error. +- is the standard error of the published\n"
-      "value: its own where it is given, else one unit of the last printed digit over sqrt(12), and in quadrature our\n"
-      "error times sqrt(our total time / theirs). The viscosity follows from the two printed parts of P_xy.\n\n";
-  text += fmt::format("{} cells judged, {} of them printed: chi squared {:.1f} for {}.", comparison.judged,
-                      comparison.independent, comparison.chi_squared, comparison.independent);
+      comparison.in_print
+          ? "\ndifference: (ours - published) over the combined standard error. +- is the standard error of the "
+            "published\n"
+            "value: its own where it is given, else one unit of the last printed digit over sqrt(12), and in "
+            "quadrature our\n"
+            "error times sqrt(our total time / theirs). The viscosity follows from the two printed parts of P_xy.\n\n"
+          : "\ndifference: (ours - theirs) over the combined standard error; +- is the standard error of theirs.\n\n";
+  text += comparison.in_print
+              ? fmt::format("{} cells judged, {} of them printed: ", comparison.judged, comparison.independent)
+              : fmt::format("{} cells judged; without the viscosities, which follow from P_xy: ", comparison.judged);
+  text += fmt::format("chi squared {:.1f} for {}.", comparison.chi_squared, comparison.independent);
   if (comparison.judged > 0)
     text +=
         fmt::format(" Beyond 2: {}, beyond 3: {}, beyond 4: {}.\nLargest difference {:.1f}: {}.", comparison.beyond[0],

@@ -53,6 +53,7 @@ struct PublishedTable {
   std::string name;
   std::string source;
   std::vector<PublishedRow> rows;
+  bool in_print = true;  ///< false: another table.csv, with errors of its own
 };
 
 /// Fills the viscosity of a row from its printed P_xy, misprints included.
@@ -88,6 +89,7 @@ enum class Verdict { agree, disagree, nothing_to_judge };
 struct Comparison {
   std::string name;
   std::string source;
+  bool in_print = true;
   std::vector<ComparedRow> rows;
   std::vector<TableRow> only_ours;           ///< no published row of this N, E/N and rate
   std::vector<PublishedRow> only_published;  ///< not among our rows
