@@ -238,7 +238,7 @@ int lammps_run(const LammpsRunRequest& request) {
     engines.push_back(engine_text(job));
   }
   std::ranges::sort(engines);
-  engines.erase(std::ranges::unique(engines).begin(), engines.end());
+  engines.erase(std::unique(engines.begin(), engines.end()), engines.end());
   const std::string engine = fmt::format("{}", fmt::join(engines, "; "));
   write_lammps_provenance(directory / "provenance.json", request.command_line, engine, request.ranks,
                           input.points.front().seed, started, seconds);
