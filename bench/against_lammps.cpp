@@ -7,7 +7,8 @@
 //     build/bench/against_lammps [repetitions] [largest number of particles]     (5, 262144)
 //
 // LAMMPS's time is that of its loop, without starting up; it computes stresses only where its own algorithm needs them,
-// while Lucy's Runge-Kutta steps include energy, stress and the watch over the energy error.
+// while Lucy's Runge-Kutta steps include energy, stress and the watch over the energy error. Both are timed at the step
+// that they are credited with: longer steps have shorter-lived lists.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +18,8 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <initializer_list>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -35,7 +38,6 @@ namespace fs = std::filesystem;
 
 constexpr double evaluations_in_all = 4e6;  // particles times force evaluations of one timing
 constexpr double step = 0.05;
-constexpr double approach_time = 0.13;  // for which a neighbour list of LAMMPS is good, at E = N
 constexpr double watched_time = 100.0;  // over which the energy error is the largest
 constexpr std::array<double, 2> energy_errors = {1e-5, 1e-6};
 
@@ -129,6 +131,26 @@ struct Steps {
   double fourth_order, verlet, lammps;
 };
 
+/// One program's cost with one step.
+struct Timing {
+  double step;
+  std::vector<double> seconds = {};  ///< per force evaluation and particle
+};
+
+/// At the step of the comparison per evaluation, and at those for the energy errors, where these are others: a longer
+/// step has shorter-lived neighbour lists.
+std::vector<Timing> timings_at(std::initializer_list<double> steps) {
+  std::vector<Timing> timings = {{step}};
+  for (const double dt : steps)
+    if (std::abs(dt - step) > 0.05 * step) timings.push_back({dt});
+  return timings;
+}
+
+double median_at(const std::vector<Timing>& timings, double dt) {
+  const auto nearest = std::ranges::min_element(timings, {}, [&](const Timing& t) { return std::abs(t.step - dt); });
+  return median(nearest->seconds);
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -174,47 +196,56 @@ int main(int count, char** words) {
       const cases::Frame frame = frame_of(bench::prepared_flow(particles, 1.0, rate, 2, 20.0));
       files::write_lammps_case(folder, {point, frame, 0.5424});
       for (const int cores : {1, 2}) {
-        std::vector<double> fourth_order;
-        std::vector<double> verlet;
-        std::vector<double> there;
-        std::vector<double> there_fine;  // with the step for the smaller error, where lists last longer
-        auto runge_kutta = trajectory_of(frame, point, motion::Integrator::runge_kutta_4, cores);
-        for (int i = 0; i < repetitions; ++i) {
-          fourth_order.push_back(seconds_of([&] {
-                                   for (std::int64_t k = 0; k < evaluations / 4; ++k) runge_kutta.advance(step);
-                                 }) /
-                                 static_cast<double>(evaluations / 4 * 4) / n);
-          if (rate == 0.0) {
-            auto newton = trajectory_of(frame, point, motion::Integrator::velocity_verlet, cores);
-            verlet.push_back(seconds_of([&] {
-                               for (std::int64_t k = 0; k < evaluations; ++k)
-                                 newton.advance(step,
-                                                k % 10 == 0 ? pairs::Wanted::everything : pairs::Wanted::shear_stress);
-                             }) /
-                             static_cast<double>(evaluations) / n);
-          }
+        auto fourth_order = timings_at({steps[0].fourth_order, steps[1].fourth_order});
+        auto verlet = timings_at({steps[0].verlet, steps[1].verlet});
+        auto there = timings_at({steps[0].lammps, steps[1].lammps});
+        if (rate != 0.0) verlet.clear();
+        const auto motions = [&](const std::vector<Timing>& timings, motion::Integrator integrator) {
+          std::vector<motion::Trajectory<2>> made;
+          for (std::size_t i = 0; i < timings.size(); ++i)
+            made.push_back(trajectory_of(frame, point, integrator, cores));
+          return made;
+        };
+        auto runge_kutta = motions(fourth_order, motion::Integrator::runge_kutta_4);
+        auto newton = motions(verlet, motion::Integrator::velocity_verlet);
+        for (int repetition = 0; repetition < repetitions; ++repetition) {
+          for (std::size_t i = 0; i < fourth_order.size(); ++i)
+            fourth_order[i].seconds.push_back(seconds_of([&] {
+                                                for (std::int64_t k = 0; k < evaluations / 4; ++k)
+                                                  runge_kutta[i].advance(fourth_order[i].step);
+                                              }) /
+                                              static_cast<double>(evaluations / 4 * 4) / n);
+          for (std::size_t i = 0; i < verlet.size(); ++i)
+            verlet[i].seconds.push_back(seconds_of([&] {
+                                          for (std::int64_t k = 0; k < evaluations; ++k)
+                                            newton[i].advance(verlet[i].step, k % 10 == 0
+                                                                                  ? pairs::Wanted::everything
+                                                                                  : pairs::Wanted::shear_stress);
+                                        }) /
+                                        static_cast<double>(evaluations) / n);
           const std::string script = rate == 0.0 ? "nve" : "sheared";
-          for (const auto& [dt, times] : {std::pair(step, &there), std::pair(steps.back().lammps, &there_fine)}) {
-            const auto rebuild = std::max(1, static_cast<int>(approach_time / dt));
+          for (Timing& timing : there) {
             lammps.run({folder,
                         script,
                         {{"steps", fmt::format("{}", evaluations)},
                          {"every", fmt::format("{}", 100 * evaluations)},
-                         {"step", fmt::format("{}", dt)},
-                         {"rebuild", fmt::format("{}", rebuild)}},
+                         {"step", fmt::format("{}", timing.step)}},
                         cores},
                        [] { return true; });
-            times->push_back(loop_seconds(folder / (script + ".log")) / static_cast<double>(evaluations) / n);
+            timing.seconds.push_back(loop_seconds(folder / (script + ".log")) / static_cast<double>(evaluations) / n);
           }
         }
-        const double ours = median(fourth_order);
-        const double theirs = median(there);
+        const double ours = median_at(fourth_order, step);
+        const double theirs = median_at(there, step);
         fmt::print("| {} | {} | {} | {:.1f} | {} | {:.0f} | {:.1f} |", particles, rate, cores, 1e9 * ours,
-                   rate == 0.0 ? fmt::format("{:.1f}", 1e9 * median(verlet)) : "", 1e9 * theirs, theirs / ours);
+                   rate == 0.0 ? fmt::format("{:.1f}", 1e9 * median_at(verlet, step)) : "", 1e9 * theirs,
+                   theirs / ours);
         for (const Steps& at : steps)
           fmt::print(" {:.2f} | {:.2f} |",
-                     1e6 * std::min(4.0 * ours / at.fourth_order, rate == 0.0 ? median(verlet) / at.verlet : INFINITY),
-                     1e6 * (&at == &steps.back() ? median(there_fine) : theirs) / at.lammps);
+                     1e6 * std::min(4.0 * median_at(fourth_order, at.fourth_order) / at.fourth_order,
+                                    rate == 0.0 ? median_at(verlet, at.verlet) / at.verlet
+                                                : std::numeric_limits<double>::infinity()),
+                     1e6 * median_at(there, at.lammps) / at.lammps);
         fmt::print("\n");
         std::fflush(stdout);
       }

@@ -50,6 +50,7 @@ struct Columns {
   std::optional<std::size_t> id = {};
   std::optional<std::size_t> position = {};
   std::optional<std::size_t> velocity = {};
+  std::optional<std::size_t> mass = {};
 };
 
 Columns columns_of(const LineReader& lines, const std::string& properties) {
@@ -71,6 +72,7 @@ Columns columns_of(const LineReader& lines, const std::string& properties) {
       lines.refuse(fmt::format("{} has {} columns where three are expected", name, width));
     if (name == "pos") columns.position = columns.count;
     if (name == "velo") columns.velocity = columns.count;
+    if (name == "mass" || name == "masses") columns.mass = columns.count;
     columns.count += static_cast<std::size_t>(width);
   }
   if (!columns.position) lines.refuse(fmt::format("Properties is '{}': it has no pos", properties));
@@ -111,6 +113,8 @@ RawState read_extended_xyz(LineReader lines) {
   }
   state.set_cell(lines, low, {low[0] + lattice[0], low[1] + lattice[4]}, lattice[3]);
   state.lengths = {lattice[0], lattice[4]};
+  if (const auto periodic = key("pbc"); periodic && !periodic->starts_with("T T"))
+    lines.refuse(fmt::format("pbc is '{}', but only boxes that are periodic in the plane are read", *periodic));
   if (const auto time = key("Time")) state.time = lines.number(*time, "Time");
   if (const auto step = key("Step")) state.step = lines.integer(*step, "Step");
   if (const auto rate = key("strain_rate")) state.flow = lines.number(*rate, "strain_rate");
@@ -131,6 +135,7 @@ RawState read_extended_xyz(LineReader lines) {
       state.position[place + d] = lines.number(words[*columns.position + d], "a coordinate");
       if (columns.velocity) state.velocity[place + d] = lines.number(words[*columns.velocity + d], "a velocity");
     }
+    if (columns.mass) require_unit_mass(lines, lines.number(words[*columns.mass], "a mass"));
     const double z = lines.number(words[*columns.position + 2], "a coordinate");
     if (!plane) plane = z;
     if (z != *plane) lines.refuse("the particles do not lie in one plane");

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "lucy/archive.hpp"
+#include "lucy/cases/start_state.hpp"
 #include "lucy/errors.hpp"
+#include "lucy/files/checkpoint.hpp"
 #include "lucy/files/particle_file.hpp"
 #include "shared_keys.hpp"
 
@@ -41,7 +44,15 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
         .meaning = "With start: the strain rate of the flow in the velocities of that file, which is taken out of them "
                    "(0: they are peculiar).",
         .default_text = "what the file says, or 0"},
-       stored_in(&P::start_strain_rate)}};
+       stored_in(&P::start_strain_rate)},
+      {{.section = "system",
+        .name = "start_checksum",
+        .type = Type::text,
+        .meaning =
+            "With start: CRC-64 of the state that is meant (box, positions, peculiar momenta), as it stands in a "
+            "resolved input. A file that holds another state is refused.",
+        .default_text = "that of the state that is found"},
+       stored_unless_empty_in(&P::start_checksum)}};
   const auto shear = joined(
       strain_rate_key<P>("Strain rate d u_x/d y, of either sign. At zero there is no shear and no viscosity."),
       thermostat_keys<P>("How the heat of the shear is removed: at constant internal energy (Gauss), at constant "
@@ -89,16 +100,37 @@ void refuse_contradictions(const CouettePoint& point) {
                                toml_text(point.maximum_duration), toml_text(point.duration)));
 }
 
+std::string checksum_of(const cases::Frame& frame) {
+  ArchiveWriter state;
+  state.put(frame.offset);
+  state.put(frame.box);
+  state.put_sequence(frame.position);
+  state.put_sequence(frame.momentum);
+  return fmt::format("CRC-64 {:016x}", crc64(state.bytes()));
+}
+
 /// The state that a point starts from, if that is one from a file.
 void read_start(CouettePoint& point) {
   if (point.start.empty()) return;
+  ParticleState state;
   try {
     const ParticleReader reader(point.start);
-    point.start_frame =
-        std::make_shared<const cases::Frame>(reader.state(reader.frames() - 1, point.start_strain_rate).frame);
+    if (reader.format() == ParticleFormat::h5md && point.start_strain_rate)
+      throw BadInput(
+          fmt::format("system.start_strain_rate = {}, but this is a point file of Lucy, whose momenta are "
+                      "peculiar",
+                      toml_text(*point.start_strain_rate)));
+    state = reader.state(reader.frames() - 1, point.start_strain_rate);
   } catch (const BadInput& refusal) {
     throw BadInput(fmt::format("system.start = {}: {}", toml_text(point.start), refusal.what()));
   }
+  const std::string checksum = checksum_of(state.frame);
+  if (!point.start_checksum.empty() && point.start_checksum != checksum)
+    throw BadInput(fmt::format("system.start_checksum = {}, but {} holds another state now, {}; \"\" takes that one",
+                               toml_text(point.start_checksum), point.start, checksum));
+  point.start_checksum = checksum;
+  point.start_frame = std::make_shared<const cases::Frame>(std::move(state.frame));
+  if (!state.flow_told && !point.start_strain_rate) cases::refuse_flow_in_start(point);
 }
 
 }  // namespace
@@ -122,6 +154,13 @@ SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::st
     refuse_contradictions(point);
     read_start(point);
     cases::validate(point);
+  });
+}
+
+SweepInput read_sweep_without_starts(const std::filesystem::path& file) {
+  return read_input<SweepInput>(file, {}, sweep_schema(), point_keys(), [](CouettePoint& point) {
+    refuse_contradictions(point);
+    if (point.start.empty()) cases::validate(point);
   });
 }
 

@@ -24,23 +24,27 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int entries = 16000;
-constexpr double innermost = 1e-6;            // particles overlap; LAMMPS stops where one pair is nearer than this
+// Particles overlap, and LAMMPS stops where one pair is nearer than this: with 1e-6 that happens to a million particles
+// every 600000 steps.
+constexpr double innermost = 1e-12;
 constexpr double longest_between_rows = 0.2;  // the fast part of the stress correlation dies within two time units
 
-// Neighbour lists reach beyond the range by the skin. At rest LAMMPS itself sees when a particle has come too far;
-// under shear its test counts the motion of the box's corners as well and asks for a new list in every step: there a
-// list is made anew after so many steps that two particles may approach each other by the skin, at a speed of
-// `fastest_approach` in units of the typical relative one, (2 kT)^(1/2), and with the flow between them.
-constexpr double skin = 1.0;
-constexpr double fastest_approach = 7.0;
+// Neighbour lists reach beyond the range by a skin, and are good until a pair may have come nearer by that much. At
+// rest LAMMPS itself sees when the first particle has gone half of it. Under shear its test counts the motion of the
+// box's corners as well and asks for a new list in every step: there the script chooses skin and steps between lists
+// together, for two particles as fast as the fastest one, headed for each other, and the flow between them; and it
+// looks at the fastest particle again and again. (The typical pair would do with half of that, but lists that are too
+// old once in a long while miss forces without a word.) The cost is flat about these skins, for N = 1024 and 16384 at E
+// = N: within a tenth at rest for skins of 0.8 to 1.5, under shear for lists used once, twice or three times.
+constexpr double skin_at_rest = 1.0;
+constexpr double wanted_skin_under_shear = 0.7;
+constexpr double longest_approach = 0.8;  // of two particles in one step; beyond, new lists in every step are cheaper
+constexpr int most_steps_between_lists = 20;
+// The fastest particle may gain that much before lists that were chosen for it are given up. What it gains between two
+// looks, 0.2 time units apart, is little beside what its partner in the pair lacks.
+constexpr double speed_margin = 1.2;
 
-int steps_between_lists(const LammpsCase& one) {
-  double start = 0.0;
-  for (const double p : one.start.momentum) start += 0.5 * p * p / static_cast<double>(one.point.particles);
-  const double speed = fastest_approach * std::sqrt(2.0 * std::max(start, one.temperature)) +
-                       std::abs(one.point.strain_rate) * (one.point.range + skin);
-  return std::clamp(static_cast<int>(skin / (speed * one.point.step)), 1, 20);
-}
+constexpr int steps_between_restarts = 50'000;
 
 /// `text` with every @name@ replaced.
 std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
@@ -63,8 +67,15 @@ dimension 2
 boundary p p p
 atom_style atomic
 box tilt large
-read_data start.data
+@read@
 )lammps";
+
+constexpr std::string_view read_start_part = "read_data start.data";
+
+// A restart file brings the box, the particles and the state of fixes; styles and coefficients are given again.
+constexpr std::string_view read_start_or_restart_part = R"lammps(
+if "${from} == 0" then "read_data start.data" else "read_restart @name@.restart.${from}"
+if "${restart_steps} > 0" then "restart ${restart_steps} @name@.restart.1 @name@.restart.2")lammps";
 
 // The table is exact at its entries and straight in r^2 between them.
 constexpr std::string_view table_part = R"lammps(
@@ -100,7 +111,9 @@ $(c_potential[1]:%.17g) $(c_potential[2]:%.17g) $(c_potential[4]:%.17g)" append 
 )lammps";
 
 constexpr std::string_view series_part = R"lammps(
-# What is watched. T counts 2N - 2 degrees of freedom; kinetic pressures are peculiar.
+# What is watched. T counts 2N - 2 degrees of freedom; kinetic pressures are peculiar. tilt is that of the box which the
+# forces of the row have seen, of the step before: LAMMPS moves the cell after them (frames have that of their own step).
+if "${from} > 0" then "shell cat @name@_series.dat >> @name@_series_before.dat"
 compute kinetic all pressure peculiar ke
 compute potential all pressure NULL virial
 variable own atom 0.5*((vx-v_rate*y)^2+vy^2)
@@ -115,6 +128,7 @@ variable xxk equal c_kinetic[1]
 variable xxp equal c_potential[1]
 variable yyk equal c_kinetic[2]
 variable yyp equal c_potential[2]
+variable fastest equal sqrt(2*c_largest)
 variable share equal c_largest/(c_peculiar*(v_n-1))
 variable pxy equal v_xyk+v_xyp
 variable pxx equal v_xxk+v_xxp
@@ -128,21 +142,38 @@ fix series all ave/time ${every} 1 ${every} v_time v_phi v_kt v_xyk v_xyp v_xxk 
 if "${frame_steps} > 0" then &
   "dump frames all custom ${frame_steps} @name@.dump id x y vx vy" &
   "dump_modify frames sort id time yes format float %.17g"
-thermo_style custom step pe c_peculiar v_pxy v_pxx v_pyy xy
+if "${frame_steps} > 0 && ${from} > 0" then "dump_modify frames append yes"
+thermo_style custom step pe c_peculiar v_pxy v_pxx v_pyy xy v_fastest
 thermo_modify norm no
 thermo 10000
 )lammps";
+
+constexpr std::string_view going_on_part = R"lammps(
+# Every @restart_steps@ steps (-var restart_steps 5000) the state goes to @name@.restart.1 and @name@.restart.2 in turn.
+# A run that was cut off goes on from the newer of them, here the first,
+#   lmp -in @name@.in -log @name@.log -var from 1
+# and appends to its frames and, at its end, to its series. What came after the restart file then stands there twice,
+# and the later rows count (lucy lammps run takes those).)lammps";
+
+constexpr std::string_view joined_series_part = R"lammps(
+if "${from} > 0" then &
+  "shell cat @name@_series_before.dat @name@_series.dat > @name@_series_joined.dat" &
+  "shell mv @name@_series_joined.dat @name@_series.dat" &
+  "shell rm @name@_series_before.dat")lammps";
 
 constexpr std::string_view nve_script = R"lammps(# @title@
 # Motion at constant energy, velocity Verlet:
 #   lmp -in nve.in -log nve.log                   (mpirun -np 4 lmp -in nve.in -log nve.log on four cores)
 # nve_series.dat: what is watched, every @every@ steps, of the instant. Any variable below can be set from the command
 # line: -var steps 1000 -var frame_steps 20 (frames: nve.dump).
+#@going_on@
 
 variable step index @step@
 variable steps index @steps@
 variable every index @every@
 variable frame_steps index 0
+variable restart_steps index @restart_steps@
+variable from index 0
 variable rate index 0
 @system@@pair@
 neighbor @skin@ bin
@@ -151,7 +182,8 @@ timestep ${step}
 compute peculiar all temp
 fix motion all nve
 @series@
-run ${steps}
+run ${steps} upto
+@joined_series@
 write_data nve_final.data nocoeff
 )lammps";
 
@@ -160,8 +192,9 @@ constexpr std::string_view sheared_script = R"lammps(# @title@
 #   lmp -in sheared.in -log sheared.log           (mpirun -np 4 lmp -in sheared.in -log sheared.log on four cores)
 # sheared_series.dat: what is watched, every @every@ steps, of the instant; heat is what the thermostat has removed, to
 # be compared with the work, minus the integral of rate*pxy*area. Any variable below can be set from the command line:
-# -var steps 1000 -var frame_steps 20 (frames: sheared.dump, laboratory velocities) -var rebuild 1 (neighbour lists in
-# every step, for a state with particles much faster than thermal ones).
+# -var steps 1000 -var frame_steps 20 (frames: sheared.dump, laboratory velocities) -var rebuild 1 (neighbour lists at
+# most so many steps apart; they are made as often as the fastest particle needs it).
+#@going_on@
 #
 # What is not used here, and why (LAMMPS of 29 Sep 2021):
 #   fix nvt/sllod      counts the shear twice: it removes twice the work as heat
@@ -170,40 +203,56 @@ constexpr std::string_view sheared_script = R"lammps(# @title@
 #                      wrapped; the heat of that grows as the rate cubed. Here the cell is turned back between runs,
 #                      after `run 0` has wrapped every particle with its velocity (start and stop are for
 #                      fix deform, which knows no rate in a run of no length, and would leave velocities alone).
+#   check yes          of neigh_modify counts the motion of the box's corners: a new list in every step
 
 variable step index @step@
 variable steps index @steps@
 variable every index @every@
 variable frame_steps index 0
+variable restart_steps index @restart_steps@
+variable from index 0
 variable rate index @rate@
 variable temperature index @temperature@
-variable rebuild index @rebuild@
+variable rebuild index @most_steps@
 variable flip index no
 @system@@pair@
 change_box all triclinic
-neighbor @skin@ bin
-neigh_modify every ${rebuild} delay 0 check no
 timestep ${step}
 
 # Laboratory velocities: peculiar ones and the flow.
-velocity all ramp vx 0 $(v_rate*ly:%.17g) y $(ylo:%.17g) $(yhi:%.17g) sum yes units box
+if "${from} == 0" then &
+  "velocity all ramp vx 0 $(v_rate*ly:%.17g) y $(ylo:%.17g) $(yhi:%.17g) sum yes units box"
 compute peculiar all temp/deform
 fix thermostat all nvt temp ${temperature} ${temperature} @relaxation@ tchain 1
 fix_modify thermostat temp peculiar
 @series@
 fix shear all deform 1 xy erate ${rate} remap v flip ${flip}
-if "${flip} == yes" then "run ${steps}" "jump SELF end"
+
+# Neighbour lists reach beyond the range by `skin` and are used for `age` steps more: two particles of the speed `limit`,
+# headed for each other, come nearer by less in that time, the flow between them included. The fastest particle is looked
+# at every @every@ steps: beyond the limit, the run is cut short and goes on with other lists. Where two such particles
+# come nearer by @longest_approach@ or more in one step, lists are made in every step.
+variable limit equal @speed_margin@*v_fastest
+variable closing equal (2*v_limit+abs(v_rate)*(@range@+@largest_skin@))*dt
+variable wanted equal (v_closing<@longest_approach@)*ceil(@wanted_skin@/v_closing)
+variable age equal (v_wanted<v_rebuild)*v_wanted+(v_wanted>=v_rebuild)*(v_rebuild-1)
 
 variable sign equal 2*(v_rate>0)-1
 variable left equal ${steps}-step
-variable to_turn equal ceil((0.5*lx-v_sign*xy)/(v_sign*v_rate*ly*dt)-1e-9)
+if "${flip} == no" then "variable widest equal 0.5" else "variable widest equal 1e9"
+variable to_turn equal ceil((v_widest*lx-v_sign*xy)/(v_sign*v_rate*ly*dt)-1e-9)
+neigh_modify every 1 delay 0 check no
+run 0 start $(step) stop $(step+1) post no
 label segment
+neighbor $(v_age*v_closing+0.01:%.17g) bin
+neigh_modify every $(v_age+1:%.0f) delay 0 check no
+fix watch all halt @every@ v_fastest > $((v_age>0)*v_limit+(v_age==0)*1e300:%.17g) error continue message no
 variable these equal $((v_to_turn<v_left)*v_to_turn+(v_to_turn>=v_left)*v_left:%.0f)
 run ${these} post no
 run 0 start $(step) stop $(step+1) post no
-if "$(v_sign*xy/lx) > 0.499999" then "change_box all xy final $(xy-v_sign*lx:%.17g) units box"
+if "$(v_sign*xy/lx) > $(v_widest-1e-6)" then "change_box all xy final $(xy-v_sign*lx:%.17g) units box"
 if "$(v_left) > 0" then "jump SELF segment"
-label end
+@joined_series@
 write_data sheared_final.data nocoeff
 )lammps";
 
@@ -241,27 +290,37 @@ void write_lammps_case(const fs::path& folder, const LammpsCase& one) {
   std::string columns;
   for (const auto name : cases::observables) columns += (columns.empty() ? "" : " ") + std::string(name);
 
-  std::map<std::string, std::string, std::less<>> values = {{"title", title},
-                                                            {"columns", columns},
-                                                            {"entries", fmt::format("{}", entries)},
-                                                            {"range", number(point.range)},
-                                                            {"twice_amplitude", number(2.0 * amplitude)},
-                                                            {"minus_amplitude", number(-amplitude)},
-                                                            {"step", number(point.step)},
-                                                            {"steps", fmt::format("{}", lammps_steps(point))},
-                                                            {"every", fmt::format("{}", series_steps(point))},
-                                                            {"rate", number(point.strain_rate)},
-                                                            {"temperature", number(one.temperature)},
-                                                            {"relaxation", number(point.relaxation_time)},
-                                                            {"skin", number(skin)},
-                                                            {"rebuild", fmt::format("{}", steps_between_lists(one))},
-                                                            {"system", std::string(system_part)}};
+  std::map<std::string, std::string, std::less<>> values = {
+      {"title", title},
+      {"columns", columns},
+      {"entries", fmt::format("{}", entries)},
+      {"range", number(point.range)},
+      {"twice_amplitude", number(2.0 * amplitude)},
+      {"minus_amplitude", number(-amplitude)},
+      {"step", number(point.step)},
+      {"steps", fmt::format("{}", lammps_steps(point))},
+      {"every", fmt::format("{}", series_steps(point))},
+      {"rate", number(point.strain_rate)},
+      {"temperature", number(one.temperature)},
+      {"relaxation", number(point.relaxation_time)},
+      {"skin", number(skin_at_rest)},
+      {"wanted_skin", number(wanted_skin_under_shear)},
+      {"largest_skin", number(wanted_skin_under_shear + longest_approach)},
+      {"longest_approach", number(longest_approach)},
+      {"speed_margin", number(speed_margin)},
+      {"most_steps", fmt::format("{}", most_steps_between_lists)},
+      {"restart_steps", fmt::format("{}", steps_between_restarts)}};
   const auto write = [&](const std::string& name, const std::string& heat, std::string_view pair,
                          std::string_view script) {
+    const bool moves = script == nve_script || script == sheared_script;
     values["name"] = name;
     values["heat"] = heat;
+    values["read"] = filled(moves ? read_start_or_restart_part : read_start_part, values);
+    values["system"] = filled(system_part, values);
+    values["going_on"] = filled(going_on_part, values);
     values["pair"] = filled(pair, values);
     values["series"] = filled(series_part, values);
+    values["joined_series"] = filled(joined_series_part, values);
     write_file_atomically(folder / (name + ".in"), filled(script, values));
   };
   write_file_atomically(folder / "lucy.table", table_text(kernel, title));
@@ -313,14 +372,27 @@ cases::EngineSeries read_lammps_series(const fs::path& path) {
   const auto column = [&](std::string_view name) -> const std::vector<double>& {
     return file.columns[find_column(file, name, path)];
   };
+  // Where a run went on from a restart file, times begin again there: the later rows count.
+  const auto& times = column("time");
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    while (!rows.empty() && times[rows.back()] >= times[row]) rows.pop_back();
+    rows.push_back(row);
+  }
+  const auto chosen = [&](std::string_view name) {
+    const auto& values = column(name);
+    std::vector<double> result;
+    for (const std::size_t row : rows) result.push_back(values[row]);
+    return result;
+  };
   cases::EngineSeries series;
-  series.time = column("time");
-  series.energy = column("energy");
-  series.heat = column("heat");
-  series.instants.resize(series.time.size());
+  series.time = chosen("time");
+  series.energy = chosen("energy");
+  series.heat = chosen("heat");
+  series.instants.resize(rows.size());
   for (std::size_t q = 0; q < cases::observables.size(); ++q) {
-    const auto& values = column(cases::observables[q]);
-    for (std::size_t row = 0; row < values.size(); ++row) series.instants[row][q] = values[row];
+    const auto values = chosen(cases::observables[q]);
+    for (std::size_t row = 0; row < rows.size(); ++row) series.instants[row][q] = values[row];
   }
   return series;
 }

@@ -29,9 +29,16 @@ struct Bounds {
 };
 
 Bounds read_bounds(LineReader& lines, std::string_view header) {
+  auto kinds = words_of(header);
   const bool tilted = header.find("xy xz yz") != std::string_view::npos;
   if (!tilted && header.find("abc") != std::string_view::npos)
     lines.refuse("boxes of three general edges are not read, only those with the bounds and xy xz yz");
+  // Behind "BOX BOUNDS" and the names of the tilts, one word for each direction, if any: pp, ff, ss, fs ...
+  kinds.erase(kinds.begin(), kinds.begin() + std::min<std::ptrdiff_t>(std::ssize(kinds), tilted ? 5 : 2));
+  for (std::size_t d = 0; d < std::min<std::size_t>(kinds.size(), 2); ++d)
+    if (kinds[d] != "pp")
+      lines.refuse(fmt::format("the bounds of the box are of the kind {}, but only periodic ones, pp, are read",
+                               fmt::join(kinds, " ")));
   Bounds box;
   for (std::size_t d = 0; d < 3; ++d) {
     const auto words = words_of(lines.expect("the bounds of the box"));
@@ -112,6 +119,7 @@ RawState read_dump(LineReader lines) {
   const auto vx = column_of(columns, {"vx"});
   const auto vy = column_of(columns, {"vy"});
   const auto z = column_of(columns, {"z", "zs"});
+  const auto mass = column_of(columns, {"mass"});
   if (!id || !x || !y || scaled != (columns[*y] == "ys"))
     lines.refuse(
         fmt::format("the atoms have the columns {}; id and x y (or xs ys) are needed", fmt::join(columns, " ")));
@@ -136,6 +144,7 @@ RawState read_dump(LineReader lines) {
       state.velocity[place] = lines.number(words[*vx], "a velocity");
       state.velocity[place + 1] = lines.number(words[*vy], "a velocity");
     }
+    if (mass) require_unit_mass(lines, lines.number(words[*mass], "a mass"));
     if (z) {
       const double at_z = lines.number(words[*z], "a coordinate");
       if (!plane) plane = at_z;

@@ -122,27 +122,37 @@ ParticleReader::ParticleReader(const std::filesystem::path& path, int replica) :
   if (format_ == ParticleFormat::lammps_data) {
     one_frame();
   } else {
-    while (text_.find_first_not_of(" \t\r\n", lines.place()) != std::string::npos) {
-      one_frame();
-      format_ == ParticleFormat::lammps_dump ? skip_dump(lines) : skip_extended_xyz(lines);
+    try {
+      while (text_.find_first_not_of(" \t\r\n", lines.place()) != std::string::npos) {
+        one_frame();
+        format_ == ParticleFormat::lammps_dump ? skip_dump(lines) : skip_extended_xyz(lines);
+      }
+    } catch (const EndsTooEarly& end) {
+      if (starts_.size() == 1) throw;
+      starts_.pop_back();
+      unfinished_ = end.what();
     }
   }
   frames_ = starts_.size();
 }
 
 ParticleState ParticleReader::state(std::size_t index, std::optional<double> flow) const {
+  if (index == frames_ && !unfinished_.empty())
+    throw BadInput(fmt::format("frame {} is not finished: {}", index + 1, unfinished_));
   if (index >= frames_)
     throw BadInput(fmt::format("{} has frames 1 to {}, but not {}", path_.string(), frames_, index + 1));
   ParticleState state;
   if (format_ == ParticleFormat::h5md) {
     state.frame = H5mdReader(path_, replica_).frame(index);
     state.time = state.frame.time;
+    state.flow_told = true;
     return state;
   }
   const LineReader lines(path_.string(), text_, starts_[index], lines_[index]);
   const RawState raw = format_ == ParticleFormat::lammps_data   ? read_data(lines)
                        : format_ == ParticleFormat::lammps_dump ? read_dump(lines)
                                                                 : read_extended_xyz(lines);
+  state.flow_told = raw.flow.has_value();
   state.flow = flow.value_or(raw.flow.value_or(0.0));
   state.frame = frame_of(raw, state.flow);
   state.time = raw.time;

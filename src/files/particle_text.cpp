@@ -27,8 +27,15 @@ bool LineReader::next(std::string_view& line) {
 
 std::string_view LineReader::expect(std::string_view what) {
   std::string_view line;
-  if (!next(line)) throw BadInput(fmt::format("{} ends in line {} where {} is expected", path_, next_line_ - 1, what));
+  if (!next(line))
+    throw EndsTooEarly(fmt::format("{} ends in line {} where {} is expected", path_, next_line_ - 1, what));
+  require_end_of_line();
   return line;
+}
+
+void LineReader::require_end_of_line() const {
+  if (done() && !text_.ends_with('\n'))
+    throw EndsTooEarly(fmt::format("{} ends within line {}, which has no end of line", path_, next_line_ - 1));
 }
 
 void LineReader::refuse(const std::string& what) const {
@@ -69,6 +76,10 @@ void RawState::set_cell(const LineReader& at, std::array<double, 2> low, std::ar
   }
   origin = low;
   tilt = xy;
+}
+
+void require_unit_mass(const LineReader& at, double mass) {
+  if (mass != 1.0) at.refuse(fmt::format("the mass is {}, but particles of Lucy have mass one", mass));
 }
 
 std::size_t IdCount::take(const LineReader& at, std::int64_t id) {

@@ -19,6 +19,12 @@
 
 namespace lucy::files {
 
+/// A file that ends before what it began is there: cut off, or still being written.
+class EndsTooEarly : public BadInput {
+ public:
+  using BadInput::BadInput;
+};
+
 /// The lines of a text from some place on, and the sentences about them.
 class LineReader {
  public:
@@ -27,8 +33,11 @@ class LineReader {
 
   /// False at the end of the text.
   bool next(std::string_view& line);
-  /// A line that must be there; `what` is expected in it.
+  /// A line that must be there, as a whole; `what` is expected in it. Throws EndsTooEarly.
   std::string_view expect(std::string_view what);
+  /// Throws EndsTooEarly when the line that was read last is the file's last one and has no end: half of a number is a
+  /// number, too.
+  void require_end_of_line() const;
   std::size_t place() const { return place_; }          ///< of the line after this one
   std::size_t next_line() const { return next_line_; }  ///< its number
   bool done() const { return place_ >= text_.size(); }
@@ -62,6 +71,9 @@ struct RawState {
   /// The cell from its lowest and highest corners. Refuses an empty one.
   void set_cell(const LineReader& at, std::array<double, 2> low, std::array<double, 2> high, double xy);
 };
+
+/// Refuses a mass other than one.
+void require_unit_mass(const LineReader& at, double mass);
 
 /// Ids 1 to N in any order, each once.
 class IdCount {

@@ -129,7 +129,7 @@ int lammps_check(const InputRequest& request, const std::optional<std::filesyste
 struct DumpRequest {
   std::filesystem::path file;
   int replica = 1;                                ///< of a point file, from 1
-  std::optional<std::size_t> frame = {};          ///< number from 1; default: all
+  std::optional<std::size_t> frame = {};          ///< number from 1; default: all (into a data file: the last)
   std::optional<double> strain_rate = {};         ///< of the flow in its velocities
   bool peculiar = false;                          ///< write peculiar velocities
   std::optional<std::filesystem::path> out = {};  ///< a file; its name says the format

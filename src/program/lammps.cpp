@@ -108,7 +108,7 @@ files::SweepInput read_export(const fs::path& directory) {
   const fs::path file = directory / "input.toml";
   if (!files::read_text_file(file).starts_with(files::resolved_heading(exported)))
     throw BadInput(fmt::format("{} is not that of a `lucy lammps export`", file.string()));
-  return files::read_sweep(file);
+  return files::read_sweep_without_starts(file);
 }
 
 /// "LAMMPS 29 Sep 2021 - Update 2, 2 ranks"

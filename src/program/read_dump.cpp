@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
-#include <vector>
+#include <system_error>
 
 #include "lucy/errors.hpp"
 #include "lucy/files/atomic_file.hpp"
@@ -46,6 +47,19 @@ std::string description(const ParticleState& state) {
                             format_plain(temperature), format_plain(mean, 2));
 }
 
+/// Refuses to write over the file that is read, and over any other that holds something else. True when all of `text`
+/// is there already.
+bool look_at_output(const std::filesystem::path& out, const std::filesystem::path& read, const std::string& text) {
+  std::error_code error;
+  if (!std::filesystem::exists(out, error)) return false;
+  if (std::filesystem::equivalent(out, read, error))
+    throw BadInput(fmt::format("--out {} is the file that is read: choose another name", out.string()));
+  if (!std::filesystem::is_regular_file(out, error) || files::read_text_file(out) != text)
+    throw BadInput(
+        fmt::format("--out {} exists and holds something else: choose another name, or remove it first", out.string()));
+  return true;
+}
+
 }  // namespace
 
 int read_dump(const DumpRequest& request) {
@@ -64,28 +78,31 @@ int read_dump(const DumpRequest& request) {
 
   const std::size_t shown = request.frame.value_or(reader.frames()) - 1;
   const ParticleState last = reader.state(shown, request.strain_rate);
-  print("{}: {}, {} frame{} of {} particles.\n", request.file.string(), files::format_name(reader.format()),
-        reader.frames(), reader.frames() == 1 ? "" : "s", last.frame.position.size() / 2);
+  print("{}: {}, {} frame{} of {} particles{}.\n", request.file.string(), files::format_name(reader.format()),
+        reader.frames(), reader.frames() == 1 ? "" : "s", last.frame.position.size() / 2,
+        reader.has_unfinished_frame() ? ", and one that is not finished" : "");
   print("Frame {}, {}: {}.\n", shown + 1,
         last.time ? fmt::format("time {}", format_plain(*last.time, 9)) : fmt::format("step {}", last.frame.step),
         description(last));
   if (!request.out) return 0;
 
   const files::ParticleFormat format = files::format_of_name(*request.out);
-  const bool one = request.frame || format == files::ParticleFormat::lammps_data;
-  std::vector<std::string> texts;
-  for (std::size_t i = one ? shown : 0; i <= (one ? shown : reader.frames() - 1); ++i) {
+  const bool data = format == files::ParticleFormat::lammps_data;  // holds one frame
+  const std::size_t first = request.frame || data ? shown : 0;
+  std::string text;
+  for (std::size_t i = first; i <= shown; ++i) {
     const ParticleState state = reader.state(i, request.strain_rate);
     const double flow = request.peculiar ? 0.0 : ours ? reader.strain_rate().value_or(0.0) : state.flow;
-    texts.push_back(files::particle_text(
+    text += files::particle_text(
         format, state.frame, flow,
-        fmt::format("Particles of {}, time {}", request.file.filename().string(), format_plain(state.frame.time, 9))));
+        fmt::format("Particles of {}, time {}", request.file.filename().string(), format_plain(state.frame.time, 9)));
   }
-  std::vector<std::span<const std::byte>> pieces;
-  for (const auto& text : texts) pieces.push_back(std::as_bytes(std::span(text)));
-  files::write_file_atomically(*request.out, pieces);
-  print("Written: {}, {}, {} frame{}.\n", request.out->string(), files::format_name(format), texts.size(),
-        texts.size() == 1 ? "" : "s");
+  const bool there = look_at_output(*request.out, request.file, text);
+  if (!there) files::write_file_atomically(*request.out, text);
+  const std::size_t frames = shown - first + 1;
+  print("{}: {}, {}, {}.\n", there ? "There already" : "Written", request.out->string(), files::format_name(format),
+        data && !request.frame && reader.frames() > 1 ? "the last frame (a data file holds one)"
+                                                      : fmt::format("{} frame{}", frames, frames == 1 ? "" : "s"));
   return 0;
 }
 

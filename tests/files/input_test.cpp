@@ -17,6 +17,7 @@
 
 #include "input_folder.hpp"
 #include "lucy/errors.hpp"
+#include "lucy/files/particle_file.hpp"
 #include "lucy/files/schema.hpp"
 #include "shared_sections.hpp"
 
@@ -667,6 +668,57 @@ TEST(ShippedInputs, ThePublishedTablesCanBeChangedFromTheCommandLine) {
   EXPECT_EQ(read_sweep(path, Overrides{"run.step=0.005"}).points.at(14).step, 0.005);
   EXPECT_EQ(strain_rates(read_sweep(path, Overrides{"shear.strain_rate=[0.3, 0.4]"})), (Reals{0.3, 0.4}));
   EXPECT_EQ(read_sweep(path, Overrides{"system.particles=100"}).points.size(), 13u);
+}
+
+/// A state of the system of `minimal`, in a file of that name.
+class StartTest : public InputTest {
+ protected:
+  std::string with_start(const std::string& name, double rate_of_flow, const std::string& more = "") {
+    cases::CouettePoint point;
+    point.particles = 64;
+    point.energy_per_particle = 1.0;
+    point.duration = 100.0;
+    point.seed = 3;
+    testing::put(folder_ / name,
+                 particle_text(format_of_name(name), cases::CouetteRun(point, 0).frame(), rate_of_flow, ""));
+    return with(minimal, "energy_per_particle = 1\n",
+                fmt::format("energy_per_particle = 1\nstart = \"{}\"\n{}", (folder_ / name).string(), more));
+  }
+};
+
+TEST_F(StartTest, TheStateIsPartOfTheResolvedInput) {
+  const SweepInput input = read(with_start("s.data", 0.0));
+  const std::string resolved = resolved_toml(input);
+  EXPECT_TRUE(contains(resolved, "start_checksum = \"CRC-64 ")) << resolved;
+  EXPECT_EQ(resolved_toml(read(resolved)), resolved);
+  // The same state in another format is the same state, but for the name of its file.
+  EXPECT_EQ(read(with_start("s.xyz", 0.0)).points[0].start_checksum, input.points[0].start_checksum);
+  // Another state under the same name is another input.
+  std::string data = testing::contents(folder_ / "s.data");
+  testing::put(folder_ / "s.data", with(data, "\n7 1 ", "\n70 1 "));
+  EXPECT_TRUE(contains(refusal(resolved), "s.data")) << refusal(resolved);
+  testing::put(folder_ / "s.data", with(with(data, "\n7 1 ", "\nx 1 "), "\n8 1 ", "\n7 1 "));
+  testing::put(folder_ / "s.data", with(testing::contents(folder_ / "s.data"), "\nx 1 ", "\n8 1 "));
+  EXPECT_TRUE(contains(refusal(resolved), "system.start_checksum = \"CRC-64 ")) << refusal(resolved);
+  EXPECT_NE(read(resolved, {"system.start_checksum=\"\""}).points[0].start_checksum, input.points[0].start_checksum);
+}
+
+TEST_F(StartTest, AFlowThatIsNotSpokenOfIsRefused) {
+  const std::string text = with_start("s.dump", 0.5);
+  EXPECT_TRUE(contains(refusal(text), "has a flow in its velocities")) << refusal(text);
+  EXPECT_TRUE(contains(refusal(text), "system.start_strain_rate"));
+  EXPECT_EQ(read(text, {"system.start_strain_rate=0.5"}).points.size(), 1U);
+  EXPECT_FALSE(contains(refusal(text, {"system.start_strain_rate=0"}), "has a flow"));
+}
+
+TEST_F(StartTest, ARunThatIsDoneIsReadWithoutItsStart) {
+  const SweepInput input = read(with_start("s.data", 0.0));
+  const auto path = write(resolved_toml(input));
+  std::filesystem::remove(folder_ / "s.data");
+  EXPECT_TRUE(contains(refusal_of(path), "s.data"));
+  const SweepInput again = read_sweep_without_starts(path);
+  EXPECT_EQ(again.points[0].start_frame, nullptr);
+  EXPECT_EQ(resolved_toml(again), resolved_toml(input));
 }
 
 }  // namespace

@@ -35,11 +35,11 @@ TEST(LammpsCase, TheTableHoldsThePotentialAndItsSlope) {
   write_lammps_case(scratch.path(), {point, cases::CouetteRun(point, 0).frame(), 0.5});
   const std::string text = testing::contents(scratch / "lucy.table");
   const ColumnFile table =
-      parse_columns(std::string_view(text).substr(text.find("RSQ 1e-06 3") + 11), scratch / "lucy.table");
+      parse_columns(std::string_view(text).substr(text.find("RSQ 1e-12 3") + 11), scratch / "lucy.table");
   ASSERT_EQ(table.columns.size(), 4U);
   const auto& r = table.columns[1];
   ASSERT_EQ(r.size(), 16000U);
-  EXPECT_EQ(r.front(), 1e-6);
+  EXPECT_EQ(r.front(), 1e-12);  // particles overlap, and LAMMPS stops where two are nearer
   EXPECT_EQ(r.back(), 3.0);
   const double a = 5.0 / (9.0 * std::acos(-1.0));
   for (std::size_t i = 0; i < r.size(); i += 333) {
@@ -72,6 +72,39 @@ TEST(LammpsCase, OnlyShearedStatesGetAShearedScript) {
     EXPECT_EQ(std::filesystem::exists(scratch / "sheared.in"), rate != 0.0);
     EXPECT_EQ(testing::contents(scratch / "nve.in").find('@'), std::string::npos);
   }
+}
+
+TEST(LammpsCase, OnlyATiltedCellIsHandedOverAsATiltedOne) {
+  const auto point = point_of(0.5);
+  cases::Frame frame = cases::CouetteRun(point, 0).frame();
+  for (const double offset : {0.0, 2.0}) {
+    const ScratchFolder scratch;
+    frame.offset = offset;
+    write_lammps_case(scratch.path(), {point, frame, 0.5});
+    EXPECT_EQ(testing::contents(scratch / "start.data").find("xy xz yz") != std::string::npos, offset != 0.0);
+  }
+}
+
+TEST(LammpsCase, OfARunThatWentOnFromARestartFileTheLaterRowsCount) {
+  const ScratchFolder scratch;
+  std::string text = "# step time";
+  for (const auto name : cases::observables) text += fmt::format(" {}", name);
+  text += " pxy pxx pyy energy heat tilt\n";
+  const auto row = [&](double time, int attempt) {
+    text += fmt::format("{} {}", time * 20, time);
+    for (std::size_t q = 0; q < cases::observables.size(); ++q) text += fmt::format(" {}", attempt);
+    text += fmt::format(" 1 2 3 {} 0 0\n", 10 * attempt);
+  };
+  for (const double time : {0.0, 0.2, 0.4, 0.6, 0.8}) row(time, 1);
+  text += "# a title\n";
+  for (const double time : {0.4, 0.6}) row(time, 2);
+  for (const double time : {0.6, 0.8, 1.0}) row(time, 3);
+  put(scratch / "series", text);
+  const cases::EngineSeries series = read_lammps_series(scratch / "series");
+  EXPECT_EQ(series.time, (std::vector{0.0, 0.2, 0.4, 0.6, 0.8, 1.0}));
+  EXPECT_EQ(series.energy, (std::vector{10.0, 10.0, 20.0, 30.0, 30.0, 30.0}));
+  EXPECT_EQ(series.instants[2][0], 2.0);
+  EXPECT_EQ(series.instants[5][8], 3.0);
 }
 
 TEST(LammpsCase, ASeriesBecomesTheRecordOfAReplica) {

@@ -170,6 +170,72 @@ TEST_F(ParticleFile, RefusesInASentenceWithTheLine) {
   expect_refusal("1\nLattice=\"9 0 0 0 9 0 0 0 1\" Properties=species:S:1\nX\n", "no pos");
 }
 
+TEST_F(ParticleFile, RefusesWhatItWouldMisread) {
+  const auto dump = [](const std::string& bounds, const std::string& columns) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS " + bounds +
+           "\n0 10\n0 10\n-0.5 0.5\nITEM: ATOMS " + columns + "\n";
+  };
+  expect_refusal(dump("ff ss pp", "id x y") + "1 2 3\n", ":5: the bounds of the box are of the kind ff ss pp");
+  expect_refusal(dump("pp ss pp", "id x y") + "1 2 3\n", "only periodic ones");
+  expect_refusal(dump("pp pp pp", "id mass x y") + "1 2.5 2 3\n", ":10: the mass is 2.5");
+  EXPECT_EQ(written(dump("pp pp ff", "id mass x y") + "1 1 2 3\n").state(0).frame.position[1], 3.0);
+
+  const std::string head = "1 atoms\n2 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n";
+  expect_refusal("t\n" + head + "\nMasses\n\n1 1\n2 3\n", ":10: the mass is 3");
+  expect_refusal("t\n" + head + "\nAtoms # charge\n\n1 1 0.5 2 3 0\n", ":7: Atoms are of style charge");
+  expect_refusal("t\n" + head + "\nAtoms\n\n1 1 0.5 2 3 0\n", "6 words were found where an entry of Atoms");
+  expect_refusal("t\n" + head + "\nAtoms\n\n1 1 2 3 0\n\nVelocities\n\n1 0 0 0 0 0 0\n",
+                 "an entry of Velocities has 4");
+  expect_refusal("velocities with the flow of strain rate \n" + head, ":1: '' was found where a strain rate");
+  expect_refusal("t\n" + head + "\nAtoms\n\n1 1 2 3 0", "ends within line 9");
+  const std::string particle = "Properties=pos:R:3:masses:R:1";
+  const std::string lattice = "1\nLattice=\"9 0 0 0 9 0 0 0 1\" ";
+  expect_refusal(lattice + particle + "\n1 2 0 4\n", ":3: the mass is 4");
+  expect_refusal(lattice + "pbc=\"T F F\" " + particle + "\n1 2 0 1\n", "pbc is 'T F F'");
+}
+
+TEST_F(ParticleFile, PassesOverCoefficientsInADataFile) {
+  const auto reader = written(
+      "LAMMPS data file\n\n1 atoms\n1 atom types\n0 bonds\n\n0 10 xlo xhi\n0 10 ylo yhi\n\nMasses\n\n1 1\n\n"
+      "Pair Coeffs # table\n\n1 lucy.table LUCY\n\nPairIJ Coeffs # nm/cut\n\n1 1 0.5 3 -2 -3\n\n"
+      "Atoms # atomic\n\n1 1 4 5 0 0 0 0\n\nBond Coeffs\n\n1 1 2\n2 1 2\n\nVelocities\n\n1 0.5 0.25 0\n");
+  const cases::Frame frame = reader.state(0).frame;
+  EXPECT_EQ(frame.position, (std::vector{4.0, 5.0}));
+  EXPECT_EQ(frame.momentum, (std::vector{0.5, 0.25}));
+}
+
+TEST_F(ParticleFile, ReadsCompleteFramesOfAFileThatIsStillBeingWritten) {
+  for (const auto format : {ParticleFormat::lammps_dump, ParticleFormat::extended_xyz}) {
+    const std::string frame = particle_text(format, random_frame(1.0), 0, "");
+    for (std::size_t written_of_it = 1; written_of_it < frame.size(); written_of_it += 7) {
+      const auto reader = written(frame + frame + frame.substr(0, written_of_it));
+      ASSERT_EQ(reader.frames(), 2U) << written_of_it;
+      EXPECT_TRUE(reader.has_unfinished_frame());
+      EXPECT_EQ(reader.state(1).frame.position.size(), 80U);
+      EXPECT_THROW(reader.state(2), BadInput);
+    }
+    // All but the end of the last line: half of a number is a number, too.
+    const auto cut = written(frame + frame.substr(0, frame.size() - 1));
+    EXPECT_EQ(cut.frames(), 1U);
+    try {
+      cut.state(1);
+      FAIL();
+    } catch (const BadInput& refusal) {
+      EXPECT_THAT(refusal.what(), HasSubstr("frame 2 is not finished"));
+    }
+    expect_refusal(frame.substr(0, frame.size() - 1), "no end of line");
+    EXPECT_FALSE(written(frame + "\n").has_unfinished_frame());
+  }
+}
+
+TEST_F(ParticleFile, KnowsWhetherTheFileTellsItsFlow) {
+  for (const auto format : written_formats) {
+    const auto of = [&](double rate) { return written(particle_text(format, random_frame(0.0), rate, "")).state(0); };
+    EXPECT_EQ(of(0.3).flow_told, format != ParticleFormat::lammps_dump);
+    EXPECT_EQ(of(0.0).flow_told, format == ParticleFormat::extended_xyz);
+  }
+}
+
 TEST_F(ParticleFile, KnowsFormatsByTheNamesOfFiles) {
   EXPECT_EQ(format_of_name("a.data"), ParticleFormat::lammps_data);
   EXPECT_EQ(format_of_name("a.lammpstrj"), ParticleFormat::lammps_dump);

@@ -85,7 +85,9 @@ class Answers(ReadDumpTest):
 
     def test_formats_are_converted_into_each_other_without_loss(self):
         self.read_dump("x/point_001.h5", "--out", "a.xyz")
-        self.read_dump("a.xyz", "--out", "b.dump")
+        said = self.read_dump("a.xyz", "--out", "b.dump").stdout
+        self.assertIn("Written: b.dump, LAMMPS dump, 11 frames", said)
+        self.assertIn("There already", self.read_dump("a.xyz", "--out", "b.dump").stdout)
         self.read_dump("b.dump", "--strain-rate", RATE, "--out", "c.xyz")
         a, c = (ase.io.read(self.folder / name, ":", format="extxyz") for name in ("a.xyz", "c.xyz"))
         for before, after in zip(a, c):
@@ -105,6 +107,21 @@ class Answers(ReadDumpTest):
             for column in ("pxy_kinetic", "potential_energy", "largest_kinetic_share"):
                 self.assertAlmostEqual(float(row[column]), float(rows[0][column]), delta=1e-8, msg=column)
 
+    def test_reads_a_dump_that_is_still_being_written(self):
+        self.read_dump("x/point_001.h5", "--out", "x.dump")
+        text = (self.folder / "x.dump").read_text()
+        self.write("cut.dump", text[:-3])
+        said = self.read_dump("cut.dump", "--frame", "2", "--out", "second.data").stdout
+        self.assertIn("10 frames of 36 particles, and one that is not finished", said)
+        self.read_dump("x.dump", "--frame", "2", "--out", "whole.data")
+        self.assertEqual((self.folder / "second.data").read_text().splitlines()[1:],
+                         (self.folder / "whole.data").read_text().splitlines()[1:])
+        self.read_dump("cut.dump", "--frame", "11", code=2, says=("--frame is 11", "frames 1 to 10"))
+
+    def test_a_data_file_takes_the_last_frame_and_says_so(self):
+        said = self.read_dump("x/point_001.h5", "--out", "x.data").stdout
+        self.assertIn("the last frame (a data file holds one)", said)
+
     def test_says_what_is_in_a_file(self):
         said = self.read_dump("x/point_001.h5").stdout
         for piece in ("11 frames of 36 particles", "tilt", "kT = ", "density 1"):
@@ -119,6 +136,29 @@ class Refusals(ReadDumpTest):
         self.read_dump("frames.toml", code=2, says=("frames.toml", "none of these"))
         self.read_dump("x", code=2, says=("x",))
         self.read_dump("x/point_001.h5", "--strain-rate", "0.1", code=2, says=("--strain-rate",))
+
+    def test_nothing_is_written_over(self):
+        self.read_dump("x/point_001.h5", "--out", "x.xyz")
+        before = (self.folder / "x.xyz").read_bytes()
+        (self.folder / "link.xyz").symlink_to("x.xyz")
+        for name in ("x.xyz", "./x.xyz", "link.xyz"):
+            self.read_dump("x.xyz", "--peculiar", "--out", name, code=2, says=(name, "the file that is read"))
+        self.write("thesis.xyz", "chapter one\n")
+        self.read_dump("x/point_001.h5", "--out", "thesis.xyz", code=2, says=("thesis.xyz", "something else"))
+        self.assertEqual((self.folder / "thesis.xyz").read_text(), "chapter one\n")
+        self.assertEqual((self.folder / "x.xyz").read_bytes(), before)
+
+    def test_a_run_does_not_go_on_with_another_start(self):
+        self.read_dump("x/point_001.h5", "--frame", "11", "--out", "s.data")
+        sweep = ("frames.toml", "--set", 'system.start="s.data"', "--set", "output.frame_interval=0", "--out", "y")
+        self.sweep(*sweep)
+        (self.folder / "s.data").unlink()
+        self.read_dump("x/point_001.h5", "--frame", "10", "--out", "s.data")
+        self.sweep(*sweep, code=2, says=("another input", "start_checksum"))
+
+    def test_the_momenta_of_a_point_file_have_no_flow_to_be_taken_out(self):
+        self.sweep("frames.toml", "--set", 'system.start="x/point_001.h5"', "--set", "system.start_strain_rate=0.5",
+                   "--out", "y", code=2, says=("system.start_strain_rate", "peculiar"))
 
     def test_a_start_of_another_system_is_refused(self):
         for setting, says in (("system.particles=64", "has 36 particles"), ("system.density=0.8", "system.density"),

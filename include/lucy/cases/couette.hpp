@@ -32,6 +32,7 @@ struct CouettePoint {
   std::optional<double> kinetic_temperature;  ///< target kT of isokinetic and Nose-Hoover; default: the start's
   std::string start;                          ///< file of the state to start from; empty: a lattice
   std::optional<double> start_strain_rate;    ///< of the flow in its velocities; default: as the file says, or none
+  std::string start_checksum;                 ///< of the state in it; empty: not known yet
   std::shared_ptr<const Frame> start_frame;   ///< what was read from it
   // [kernel]
   std::string kernel = "lucy";

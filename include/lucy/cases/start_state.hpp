@@ -20,4 +20,9 @@ motion::Start<2> state_start(const CouettePoint& point);
 /// box below twice the range, more than one replica, and momenta that the energy would scale by more than a tenth.
 void refuse_unfit_start(const CouettePoint& point);
 
+/// Refuses (BadInput) a `start_frame` whose velocities hold a flow, though nobody has said so: where the slope of v_x
+/// over y, by least squares, is beyond five of its standard errors. The flow of strain rate g in N particles of kT in a
+/// box of height L is seen from about g L N^(1/2) = 17 (kT)^(1/2) on.
+void refuse_flow_in_start(const CouettePoint& point);
+
 }  // namespace lucy::cases

@@ -32,6 +32,10 @@ Schema sweep_schema();
 /// cases::validate. Throws BadInput: one sentence that starts with "FILE:LINE: ", or with "--set ...: ".
 SweepInput read_sweep(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
+/// The same of a resolved input whose points have been run, or handed over: the files that system.start names need not
+/// be there any more. Points with such a start have no start_frame and are not judged again; they cannot be run.
+SweepInput read_sweep_without_starts(const std::filesystem::path& file);
+
 /// The same points as text that read_sweep accepts and that gives back the same bits: what all points share in the
 /// sections, the rest in one [[point]] table each. Threads and checkpoint_interval are left out: they change no result.
 /// `what` was run with it, which no other command may take for its own.

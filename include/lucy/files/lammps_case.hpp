@@ -16,7 +16,9 @@
 // both with r_0 = h and shifted to zero there, add up to phi.
 //
 // Series have one row per sample, of the instant, with named columns: step, time, those of cases::observables, and
-// pxy, pxx, pyy, energy (K + Phi, K peculiar), heat (what the thermostat has removed since the start), tilt.
+// pxy, pxx, pyy, energy (K + Phi, K peculiar), heat (what the thermostat has removed since the start), tilt. LAMMPS
+// moves the sheared cell after it has computed forces: tilt is that of the box which the forces of the row have seen,
+// of the step before; a frame of the same step has that of its own step.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +58,8 @@ int series_steps(const cases::CouettePoint& point);
 /// Steps of a whole run, equilibration included.
 std::int64_t lammps_steps(const cases::CouettePoint& point);
 
-/// Throws BadInput when the file cannot be read or lacks a column.
+/// Of a run that went on from a restart file, the rows that were run last. Throws BadInput when the file cannot be read
+/// or lacks a column.
 cases::EngineSeries read_lammps_series(const std::filesystem::path& path);
 
 /// The same as a replica's record: rows after the point's equilibration, averaged over about the point's sample

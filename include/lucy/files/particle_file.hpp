@@ -6,7 +6,7 @@
 // (tilt, L_y), the tilt being the offset of the image above folded to (-L_x/2, L_x/2]; the third edge is (0, 0, 1) and
 // means nothing.
 //
-//     LAMMPS data      "N atoms", box bounds, "xy xz yz" when tilted, Atoms (style atomic), Velocities
+//     LAMMPS data      "N atoms", box bounds, "xy xz yz" when tilted, Atoms (style atomic), Velocities; one frame
 //     LAMMPS dump      any columns that hold id, x y or xs ys, vx vy; written with ITEM: TIME
 //     extended XYZ     Lattice, Origin, Properties with pos and velo, Time, Step, strain_rate
 //
@@ -37,6 +37,7 @@ struct ParticleState {
                        ///< where the file says nothing; without momenta where it has no velocities
   std::optional<double> time = {};  ///< when the file tells it
   double flow = 0.0;                ///< the strain rate that was taken out of the velocities
+  bool flow_told = false;  ///< whether the file says which one that is (point files: their momenta are peculiar)
 };
 
 class ParticleReader {
@@ -46,13 +47,16 @@ class ParticleReader {
   explicit ParticleReader(const std::filesystem::path& path, int replica = 1);
 
   ParticleFormat format() const { return format_; }
+  /// Complete ones. Another one may be cut off at the end of the file, by who still writes it, say.
   std::size_t frames() const { return frames_; }
+  bool has_unfinished_frame() const { return !unfinished_.empty(); }
   /// Of the motion in a point file of Lucy; nothing in other files.
   std::optional<double> strain_rate() const { return strain_rate_; }
 
   /// Frame `index` from 0, particles in the order of their ids. `flow`: the strain rate of the flow in the velocities,
-  /// instead of what the file says, or else none. Throws BadInput as above: also for particles that do not lie in a
-  /// plane, masses other than one, ids that are not 1 to N.
+  /// instead of what the file says, or else none. Throws BadInput as above: also for a frame that is not finished,
+  /// particles that do not lie in a plane, masses other than one, ids that are not 1 to N, a box that is not periodic
+  /// in the plane, and an atom style of a data file that is not atomic.
   ParticleState state(std::size_t index, std::optional<double> flow = {}) const;
 
  private:
@@ -64,6 +68,7 @@ class ParticleReader {
   std::string text_ = {};
   std::vector<std::size_t> starts_ = {};  ///< in the text, of every frame
   std::vector<std::size_t> lines_ = {};   ///< their line numbers, from 1
+  std::string unfinished_ = {};           ///< what is missing from the frame that is not, if there is one
 };
 
 /// A state as text of the format, with the flow of strain rate `flow` added to the velocities; `title` is the first
