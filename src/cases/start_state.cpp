@@ -85,7 +85,8 @@ void refuse_unfit_start(const CouettePoint& point) { state_start(point); }
 void refuse_flow_in_start(const CouettePoint& point) {
   if (!point.start_frame || point.start_frame->momentum.size() < 6) return;
   const Frame& frame = *point.start_frame;
-  const auto n = static_cast<double>(frame.position.size() / 2);
+  const std::size_t particles = frame.position.size() / 2;
+  const auto n = static_cast<double>(particles);
   double mean_y = 0.0;
   double mean_v = 0.0;
   for (std::size_t i = 0; i < frame.momentum.size(); i += 2) {

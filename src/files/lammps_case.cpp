@@ -139,10 +139,11 @@ variable tilt equal xy
 fix series all ave/time ${every} 1 ${every} v_time v_phi v_kt v_xyk v_xyp v_xxk v_xxp v_yyk v_yyp v_share v_pxy v_pxx &
   v_pyy v_energy v_heat v_tilt file @name@_series.dat format " %.15g" title1 "# @title@" &
   title2 "# step time @columns@ pxy pxx pyy energy heat tilt"
+if "${from} == 0" then "variable frames string @name@" else "variable frames string @name@_from_$(step:%.0f)"
 if "${frame_steps} > 0" then &
-  "dump frames all custom ${frame_steps} @name@.dump id x y vx vy" &
-  "dump_modify frames sort id time yes format float %.17g"
-if "${frame_steps} > 0 && ${from} > 0" then "dump_modify frames append yes"
+  "dump frames all custom ${frame_steps} ${frames}.dump id x y vx vy" &
+  "dump_modify frames sort id format float %.17g"
+if "${frame_steps} > 0 && ${from} == 0" then "dump_modify frames time yes"
 thermo_style custom step pe c_peculiar v_pxy v_pxx v_pyy xy v_fastest
 thermo_modify norm no
 thermo 10000
@@ -152,8 +153,9 @@ constexpr std::string_view going_on_part = R"lammps(
 # Every @restart_steps@ steps (-var restart_steps 5000) the state goes to @name@.restart.1 and @name@.restart.2 in turn.
 # A run that was cut off goes on from the newer of them, here the first,
 #   lmp -in @name@.in -log @name@.log -var from 1
-# and appends to its frames and, at its end, to its series. What came after the restart file then stands there twice,
-# and the later rows count (lucy lammps run takes those).)lammps";
+# and appends to its series, at its end. Rows after the restart file then stand there twice, and the later ones count
+# (lucy lammps run takes those). Frames go to another dump, @name@_from_STEP.dump, with steps but without times: LAMMPS
+# counts time from the restart file on.)lammps";
 
 constexpr std::string_view joined_series_part = R"lammps(
 if "${from} > 0" then &

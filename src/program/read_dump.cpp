@@ -68,7 +68,8 @@ int read_dump(const DumpRequest& request) {
   if (request.strain_rate && !std::isfinite(*request.strain_rate))
     throw BadInput(fmt::format("--strain-rate is {}, but a finite number is expected", *request.strain_rate));
   const files::ParticleReader reader(request.file, request.replica);
-  if (request.frame && (*request.frame < 1 || *request.frame > reader.frames()))
+  const std::size_t begun = reader.frames() + (reader.has_unfinished_frame() ? 1 : 0);
+  if (request.frame && (*request.frame < 1 || *request.frame > begun))
     throw BadInput(fmt::format("--frame is {}, but {} has frames 1 to {}", *request.frame, request.file.string(),
                                reader.frames()));
   const bool ours = reader.format() == files::ParticleFormat::h5md;

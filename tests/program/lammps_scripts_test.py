@@ -130,7 +130,7 @@ class Restarts(ScriptTest):
     def kill_and_go_on(self, folder, script):
         """Kills it at its second restart file, and goes on from the newer one."""
         place = self.folder / "x" / folder
-        process = subprocess.Popen(self.command(script, {"restart_steps": 700}), cwd=place)
+        process = subprocess.Popen(self.command(script, {"restart_steps": 700, "frame_steps": 500}), cwd=place)
         files = [place / f"{script}.restart.{number}" for number in (1, 2)]
         for _ in range(3000):
             if files[1].exists() and files[1].stat().st_size >= files[0].stat().st_size:
@@ -141,7 +141,12 @@ class Restarts(ScriptTest):
         self.assertFalse((place / f"{script}_final.data").exists(), "it was not killed in time")
         newer = max((1, 2), key=lambda number: files[number - 1].stat().st_mtime_ns)
         before = (place / f"{script}_series.dat").read_text().splitlines()
-        self.run_script(folder, script, **{"from": newer, "restart_steps": 0})
+        self.run_script(folder, script, **{"from": newer, "restart_steps": 0, "frame_steps": 500})
+        dump, = place.glob(f"{script}_from_*.dump")
+        begin = int(dump.stem.rsplit("_", 1)[1])
+        steps = re.findall(r"^ITEM: TIMESTEP\n(\d+)", dump.read_text(), re.MULTILINE)
+        self.assertEqual(list(map(int, steps)), [step for step in range(0, STEPS + 1, 500) if step >= begin])
+        self.expect(self.lucy("read-dump", place / f"{script}.dump"), 0)
         rows = self.series(folder, script)
         every = sorted(rows)[1]
         self.assertEqual(sorted(rows), list(range(0, STEPS + 1, every)))

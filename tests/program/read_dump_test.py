@@ -116,7 +116,8 @@ class Answers(ReadDumpTest):
         self.read_dump("x.dump", "--frame", "2", "--out", "whole.data")
         self.assertEqual((self.folder / "second.data").read_text().splitlines()[1:],
                          (self.folder / "whole.data").read_text().splitlines()[1:])
-        self.read_dump("cut.dump", "--frame", "11", code=2, says=("--frame is 11", "frames 1 to 10"))
+        self.read_dump("cut.dump", "--frame", "11", code=2, says=("frame 11 is not finished", "ends within line"))
+        self.read_dump("cut.dump", "--frame", "12", code=2, says=("--frame is 12", "frames 1 to 10"))
 
     def test_a_data_file_takes_the_last_frame_and_says_so(self):
         said = self.read_dump("x/point_001.h5", "--out", "x.data").stdout
