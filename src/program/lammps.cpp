@@ -71,25 +71,34 @@ fs::path default_directory(const InputRequest& request) {
   return fs::path("runs") / (request.input.stem().string() + "_lammps");
 }
 
-/// LAMMPS has no ergostat: it keeps the temperature that this engine finds at the energy.
-double temperature_of(const CouettePoint& point) {
-  if (point.kinetic_temperature) return *point.kinetic_temperature;
+/// A temperature, and where it is from in half a sentence.
+struct Temperature {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::string from;
+};
+
+/// LAMMPS has no ergostat: it keeps the temperature that this engine finds at the energy. Nothing when interrupted.
+std::optional<Temperature> temperature_of(const CouettePoint& point) {
+  if (point.kinetic_temperature) return Temperature{*point.kinetic_temperature, "system.kinetic_temperature"};
   CouettePoint brief = point;
   brief.duration = std::min(point.duration, temperature_duration);
-  brief.sample_interval = 0.0;
+  brief.sample_interval = brief.frame_interval = 0.0;
   cases::CouetteRun run(brief, 0, available_cores());
   if (point.thermostat != motion::Thermostat::isoenergetic) {
     const cases::Frame start = run.frame();
     double sum = 0.0;
     for (const double p : start.momentum) sum += 0.5 * p * p;
-    return sum / static_cast<double>(point.particles - 1);
+    return Temperature{sum / static_cast<double>(point.particles - 1), "that of the start"};
   }
   while (run.intervals_done() < run.intervals_needed(brief.duration)) {
-    if (interrupt_noted()) return std::numeric_limits<double>::quiet_NaN();
+    if (interrupt_noted()) return std::nullopt;
     run.advance_one_sample();
   }
   const cases::TableRow row = cases::summarize(brief, brief.duration, std::span(&run.record(), 1));
-  return row.estimates[cases::quantity("kinetic_temperature")].value;
+  const auto& estimate = row.estimates[cases::quantity("kinetic_temperature")];
+  return Temperature{estimate.value,
+                     fmt::format("{}, the mean of a run of Lucy's over {} time units with its ergostat",
+                                 files::format_with_error(estimate.value, estimate.error), brief.duration)};
 }
 
 void refuse_what_lammps_cannot(const CouettePoint& point) {
@@ -129,7 +138,6 @@ std::string case_folder_name(std::size_t index) { return fmt::format("point_{:03
 CouettePoint handed_over(const CouettePoint& point) {
   CouettePoint one = point;
   one.replicas = 1;
-  one.frame_interval = 0.0;
   one.target_relative_error.reset();
   return one;
 }
@@ -171,11 +179,13 @@ int lammps_export(const InputRequest& request) {
       files::LammpsCase one;
       one.point = point;
       one.start = cases::CouetteRun(point, 0).frame();
-      if (point.strain_rate != 0.0) one.temperature = temperature_of(point);
-      if (interrupt_noted()) {
+      const auto temperature = point.strain_rate == 0.0 ? Temperature{} : temperature_of(point);
+      if (!temperature || interrupt_noted()) {
         console.say("interrupted; the same command resumes");
         return 1;
       }
+      one.temperature = temperature->value;
+      one.temperature_from = temperature->from;
       make_directory(directory / case_folder_name(i));
       files::write_lammps_case(directory / case_folder_name(i), one);
     }

@@ -43,7 +43,7 @@ constexpr double single_point_rate = 0.5;
 CouettePoint driven(CouettePoint point, double rate) {
   point = handed_over(point);
   point.kinetic_temperature.reset();
-  point.sample_interval = 0.0;
+  point.sample_interval = point.frame_interval = 0.0;
   point.integrator = motion::Integrator::runge_kutta_4;
   point.reading = motion::Reading::md;
   point.rescale = true;
@@ -168,7 +168,7 @@ LammpsJob LammpsComparison::case_of(const std::string& name, const CouettePoint&
                                     double temperature) const {
   const fs::path folder = directory_ / name;
   make_directory(folder);
-  files::write_lammps_case(folder, {point, start, temperature});
+  files::write_lammps_case(folder, {point, start, temperature, "the mean of Lucy's run with its ergostat"});
   return main_job(folder, point);
 }
 

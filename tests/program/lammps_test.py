@@ -91,6 +91,7 @@ class Export(LammpsTest):
         text = (self.folder / "x/point_002/sheared.in").read_text()
         temperature = float(re.search(r"variable temperature index (\S+)", text).group(1))
         self.assertAlmostEqual(temperature, 0.54, delta=0.02)
+        self.assertRegex(text, r"# kT: 0\.5\d+\(\d+\), the mean of a run of Lucy's over 100 time units")
         self.lammps("export", "small.toml", "--out", "y", "--set", "system.kinetic_temperature=0.5")
         self.assertIn("variable temperature index 0.5\n", (self.folder / "y/point_002/sheared.in").read_text())
 
@@ -231,8 +232,11 @@ class Run(LammpsTest):
         self.assertEqual(process.returncode, 0, process.stderr)
 
     def test_frames_of_the_sheared_run_start_a_sweep(self):
-        self.export("--set", "run.duration=20")
-        self.run_script("x/point_002", "sheared", "-var", "frame_steps", "101")
+        self.export("--set", "run.duration=20", "--set", "output.frame_interval=5")
+        self.lammps("run", "x")
+        process = self.lucy("read-dump", "x/point_002/sheared.dump", "--strain-rate", "0.5")
+        self.expect(process, 0)
+        self.assertIn("7 frames", process.stdout)
         sweep = ["small.toml", "--set", "shear.strain_rate=0.5", "--set", 'system.start="x/point_002/sheared.dump"']
         self.sweep(*sweep, "--out", "wrong", code=2, says=("a flow in its velocities", "start_strain_rate"))
         self.sweep(*sweep, "--out", "right", "--set", "system.start_strain_rate=0.5")

@@ -34,8 +34,9 @@ namespace lucy::files {
 
 struct LammpsCase {
   cases::CouettePoint point;
-  cases::Frame start;        ///< with peculiar momenta
-  double temperature = 0.0;  ///< kT that sheared.in keeps; not looked at where the rate is zero
+  cases::Frame start;                             ///< with peculiar momenta
+  double temperature = 0.0;                       ///< kT that sheared.in keeps; not looked at where the rate is zero
+  std::string temperature_from = "as asked for";  ///< half a sentence for the script
 };
 
 /// Writes all files of the case into `folder`, which exists. Throws RunFailed when the disk refuses.
