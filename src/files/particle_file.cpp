@@ -44,6 +44,19 @@ ParticleFormat format_of_text(const std::filesystem::path& path, std::string_vie
       path.string()));
 }
 
+/// Numbers that arithmetic would lose: a place in the box, or a square.
+void refuse_lost_digits(const RawState& state, const std::filesystem::path& path) {
+  constexpr double most_boxes = 1e6;
+  constexpr double most_speed = 1e100;
+  for (std::size_t i = 0; i < state.position.size(); ++i)
+    if (!(std::abs(state.position[i] - state.origin[i % 2]) < most_boxes * state.lengths[i % 2]))
+      throw BadInput(fmt::format("{}: particle {} has the coordinate {}, a million boxes away", path.string(),
+                                 i / 2 + 1, state.position[i]));
+  for (std::size_t i = 0; i < state.velocity.size(); ++i)
+    if (!(std::abs(state.velocity[i]) < most_speed))
+      throw BadInput(fmt::format("{}: particle {} has the velocity {}", path.string(), i / 2 + 1, state.velocity[i]));
+}
+
 /// Peculiar momenta, the tilt as an offset, positions in the rectangle.
 cases::Frame frame_of(const RawState& state, double flow) {
   cases::Frame frame;
@@ -152,6 +165,7 @@ ParticleState ParticleReader::state(std::size_t index, std::optional<double> flo
   const RawState raw = format_ == ParticleFormat::lammps_data   ? read_data(lines)
                        : format_ == ParticleFormat::lammps_dump ? read_dump(lines)
                                                                 : read_extended_xyz(lines);
+  refuse_lost_digits(raw, path_);
   state.flow_told = raw.flow.has_value();
   state.flow = flow.value_or(raw.flow.value_or(0.0));
   state.frame = frame_of(raw, state.flow);

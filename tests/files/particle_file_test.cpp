@@ -191,6 +191,8 @@ TEST_F(ParticleFile, RefusesWhatItWouldMisread) {
   const std::string particle = "Properties=pos:R:3:masses:R:1";
   const std::string lattice = "1\nLattice=\"9 0 0 0 9 0 0 0 1\" ";
   expect_refusal(lattice + particle + "\n1 2 0 4\n", ":3: the mass is 4");
+  expect_refusal(dump("pp pp pp", "id x y") + "1 1e300 3\n", "particle 1 has the coordinate 1e+300");
+  expect_refusal(dump("pp pp pp", "id x y vx vy") + "1 2 3 0 1e200\n", "particle 1 has the velocity 1e+200");
   expect_refusal(lattice + "pbc=\"T F F\" " + particle + "\n1 2 0 1\n", "pbc is 'T F F'");
 }
 
