@@ -4,7 +4,7 @@
 // This engine and LAMMPS timed in turn on the same states: per force evaluation and particle, and per particle and unit
 // of simulated time at equal energy error. A table for docs/results/lammps.md goes to standard output.
 //
-//     build/bench/against_lammps [repetitions] [largest number of particles]     (5, 262144)
+//     build/bench/against_lammps [repetitions] [largest number of particles] [smallest]     (5, 262144, 1024)
 //
 // LAMMPS's time is that of its loop, without starting up; it computes stresses only where its own algorithm needs them,
 // while Lucy's Runge-Kutta steps include energy, stress and the watch over the energy error. Both are timed at the step
@@ -156,6 +156,7 @@ double median_at(const std::vector<Timing>& timings, double dt) {
 int main(int count, char** words) {
   const int repetitions = count > 1 ? std::atoi(words[1]) : 5;
   const std::int64_t most = count > 2 ? std::atoll(words[2]) : 262144;
+  const std::int64_t fewest = count > 3 ? std::atoll(words[3]) : 1024;
   const program::Lammps lammps;
   const fs::path folder = fs::temp_directory_path() / fmt::format("lucy_against_lammps_{}", ::getpid());
   fs::create_directories(folder);
@@ -188,7 +189,7 @@ int main(int count, char** words) {
       "LAMMPS | "
       "Lucy at 1e-6 | LAMMPS |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::int64_t particles : {1024, 16384, 262144}) {
-    if (particles > most) break;
+    if (particles < fewest || particles > most) continue;
     const auto n = static_cast<double>(particles);
     const auto evaluations = static_cast<std::int64_t>(std::max(40.0, evaluations_in_all / n));
     for (const double rate : {0.0, 0.1}) {
