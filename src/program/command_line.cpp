@@ -483,20 +483,24 @@ int run_program(int argument_count, const char* const* argument_values) {
       "  lucy lammps check inputs/quick.toml");
 
   auto* dump_command = program.add_subcommand(
-      "read-dump", "Particles from LAMMPS (data, dump), extended XYZ or a point file; and into another of these");
+      "read-dump",
+      "Particles from LAMMPS (data, dump), extended XYZ or a point file; and into a file of LAMMPS or extended XYZ");
   DumpRequest dump_request;
   std::size_t dump_frame = 0;
   double dump_rate = 0.0;
   dump_command->add_option("FILE", dump_request.file, "LAMMPS data file or dump, extended XYZ, point_NNN.h5")
       ->required();
-  dump_command->add_option("--frame", dump_frame, "Number of the frame, from 1; default: all")->type_name("N");
+  dump_command->add_option("--frame", dump_frame, "Number of the frame, from 1; default: all, into .data the last")
+      ->type_name("N");
   dump_command->add_option("--replica", dump_request.replica, "Number of the replica in a point file; default: 1")
       ->type_name("N");
   dump_command
       ->add_option("--strain-rate", dump_rate, "Of the flow in the velocities; default: what the file says, or 0")
       ->type_name("RATE");
   dump_command->add_flag("--peculiar", dump_request.peculiar, "Write peculiar velocities, without the flow");
-  dump_command->add_option("--out", out, "File to write: .data (LAMMPS data), .dump (LAMMPS dump), .xyz (extended XYZ)")
+  dump_command
+      ->add_option("--out", out,
+                   "File to write, a new one: .data (LAMMPS data), .dump (LAMMPS dump), .xyz (extended XYZ)")
       ->type_name("FILE");
   dump_command->set_help_flag("-h,--help", "This text");
   dump_command->footer(

@@ -63,7 +63,9 @@ constexpr std::string_view readme =
     "  lmp -in sheared.in -log sheared.log\n"
     "  mpirun -np 64 lmp -in sheared.in -log sheared.log\n"
     "\n"
-    "or all of them, ending in a table.csv with the columns of lucy sweep:\n"
+    "A run that was cut off goes on from its restart files; the script says how.\n"
+    "\n"
+    "All states, ending in a table.csv with the columns of lucy sweep:\n"
     "\n"
     "  lucy lammps run THIS_DIRECTORY --ranks 2\n";
 

@@ -58,6 +58,7 @@ CouettePoint sheared_state(CouettePoint point, double energy, double rate) {
   point.density = 1.0;
   point.range = 3.0;
   point.start.clear();
+  point.start_checksum.clear();
   point.start_frame.reset();
   point.energy_per_particle = energy;
   return driven(point, rate);

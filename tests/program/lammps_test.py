@@ -148,6 +148,15 @@ class Run(LammpsTest):
         engine = json.loads((self.folder / "x/provenance.json").read_text())["engine"]
         self.assertRegex(engine, r"LAMMPS \d+ \w+ \d+, run elsewhere")
 
+    def test_needs_the_start_no_more_once_it_is_handed_over(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        (self.folder / "x/point_001/start.data").rename(self.folder / "mine.data")
+        self.lammps("export", "small.toml", "--out", "y", "--set", "shear.strain_rate=0", "--set", "run.duration=20",
+                    "--set", 'system.start="mine.data"')
+        (self.folder / "mine.data").unlink()
+        self.lammps("run", "y")
+        self.assertEqual(len(self.rows("y")), 1)
+
     def test_other_ranks_are_no_reason_to_run_again(self):
         self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
         self.lammps("run", "x", "--ranks", "2")
