@@ -188,6 +188,12 @@ cases::EngineSeries read_lammps_series(const fs::path& path) {
     while (!rows.empty() && times[rows.back()] >= times[row]) rows.pop_back();
     rows.push_back(row);
   }
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    const double interval = times[rows[1]] - times[rows[0]];
+    if (!(std::abs(times[rows[i]] - times[rows[i - 1]] - interval) < 0.01 * interval))
+      throw BadInput(fmt::format("{} has no row between the times {} and {}, where others lie {:.6g} apart",
+                                 path.string(), times[rows[i - 1]], times[rows[i]], interval));
+  }
   const auto chosen = [&](std::string_view name) {
     const auto& values = column(name);
     std::vector<double> result;

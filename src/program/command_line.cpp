@@ -467,7 +467,7 @@ int run_program(int argument_count, const char* const* argument_values) {
   run_command->set_help_flag("-h,--help", "This text");
   run_command->footer(
       "\nStates that are done are not run again, whoever ran them and on however many ranks; LAMMPS must be here only\n"
-      "if something is left to run. Interrupted, a state begins again.\n"
+      "if something is left to run. What was cut off goes on from its last restart file (one every 50000 steps).\n"
       "\nExample:\n"
       "  lucy lammps run runs/for_lammps --ranks 2");
   auto* lammps_check_command = lammps_command->add_subcommand(

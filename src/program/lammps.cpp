@@ -225,7 +225,7 @@ int lammps_run(const LammpsRunRequest& request) {
       if (!finished) {
         if (!lammps) lammps.emplace(request.lammps);
         const auto begin = std::chrono::steady_clock::now();
-        finished = lammps->run(job, [&] {
+        finished = lammps->resume(job, [&] {
           const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
           const double done = last_step_of(job.series()) / static_cast<double>(job.steps);
           const std::string left = done > 0.0 ? ", " + duration_text(elapsed * (1.0 - done) / done) + " left" : "";
@@ -235,7 +235,8 @@ int lammps_run(const LammpsRunRequest& request) {
         });
       }
       if (!finished) {
-        console.say("interrupted; the same command runs this state again, from its beginning, and then the others");
+        console.say(
+            "interrupted; the same command goes on from this state's last restart file, or else begins it again");
         return 1;
       }
       const cases::CouetteRecord recorded = files::record_of(files::read_lammps_series(job.series()), point);
@@ -260,7 +261,8 @@ int lammps_run(const LammpsRunRequest& request) {
     const CouettePoint& point = input.points[i];
     const auto steps = static_cast<double>(files::lammps_steps(point));
     if (std::isnan(seconds[i]))
-      print("{}: had been run elsewhere.\n", point_label(point));
+      print("{}: {}.\n", point_label(point),
+            jobs[i].ranks == 0 ? "had been run elsewhere" : "went on after an interruption, its time is not known");
     else
       print("{}: {:.0f} steps in {}, {:.0f} ns per particle and step.\n", point_label(point), steps,
             duration_text(seconds[i]), 1e9 * seconds[i] / steps / static_cast<double>(point.particles));

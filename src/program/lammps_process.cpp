@@ -80,6 +80,11 @@ std::vector<std::string> command_of(const std::string& program, const LammpsJob&
 fs::path record_of(const LammpsJob& job) { return job.folder / (job.script + ".done"); }
 fs::path final_state_of(const LammpsJob& job) { return job.folder / (job.script + "_final.data"); }
 
+fs::path beginning_of(const LammpsJob& job) { return job.folder / (job.script + ".begun"); }
+fs::path restart_file(const LammpsJob& job, const std::string& which) {
+  return job.folder / (job.script + ".restart." + which);
+}
+
 /// Whether the last row of the series is that of the last step.
 bool series_is_whole(const LammpsJob& job) {
   return job.steps == 0 || last_step_of(job.series()) > static_cast<double>(job.steps - job.series_steps);
@@ -95,9 +100,8 @@ std::string checksum_of(const LammpsJob& job) {
   return fmt::format("CRC-64 {:016x}", sum);
 }
 
-std::string record_text(const FinishedJob& finished, const LammpsJob& job) {
-  return fmt::format("{}\n{}\n{} ranks\n{} seconds\n", finished.version, checksum_of(job), finished.ranks,
-                     finished.seconds);
+std::string record_text(const FinishedJob& finished, const std::string& checksum) {
+  return fmt::format("{}\n{}\n{} ranks\n{} seconds\n", finished.version, checksum, finished.ranks, finished.seconds);
 }
 
 /// "29 Sep 2021", from the title of a data file that LAMMPS wrote.
@@ -110,6 +114,35 @@ std::string version_in(const fs::path& data_file) {
   if (begin == std::string::npos) return "of a version that is not known";
   const std::size_t first = begin + before.size();
   return title.substr(first, title.find(',', first) - first);
+}
+
+/// "1" or "2", the newer restart file; empty when there is none of this very case. One that is shorter than the other
+/// was being written when the run was cut off.
+std::string restart_of(const LammpsJob& job) {
+  std::error_code error;
+  if (fs::exists(beginning_of(job), error) && files::read_text_file(beginning_of(job)) != checksum_of(job)) return "";
+  std::string best;
+  for (const std::string which : {"1", "2"}) {
+    const fs::path file = restart_file(job, which);
+    if (!fs::exists(file, error)) continue;
+    if (!best.empty()) {
+      const fs::path other = restart_file(job, best);
+      const auto size = fs::file_size(file, error);
+      const auto other_size = fs::file_size(other, error);
+      if (size < other_size ||
+          (size == other_size && fs::last_write_time(file, error) < fs::last_write_time(other, error)))
+        continue;
+    }
+    best = which;
+  }
+  return best;
+}
+
+void forget_restarts(const LammpsJob& job) {
+  std::error_code error;
+  for (const fs::path& old : {beginning_of(job), restart_file(job, "1"), restart_file(job, "2"),
+                              job.folder / (job.script + "_series_before.dat")})
+    fs::remove(old, error);
 }
 
 }  // namespace
@@ -138,13 +171,30 @@ std::optional<FinishedJob> finished_job(const LammpsJob& job) {
   std::string checksum;
   std::ifstream file(record_of(job));
   std::string unit;
+  std::string seconds;
   if (!std::getline(file, finished.version) || !std::getline(file, checksum) || checksum != checksum_of(job) ||
-      !(file >> finished.ranks >> unit >> finished.seconds))
+      !(file >> finished.ranks >> unit >> seconds))
     return std::nullopt;
+  finished.seconds = files::parse_number(seconds).value_or(std::numeric_limits<double>::quiet_NaN());
   return finished;
 }
 
 std::optional<FinishedJob> Lammps::run(const LammpsJob& job, const std::function<bool()>& goes_on) const {
+  forget_restarts(job);
+  std::error_code error;
+  fs::remove(job.series(), error);
+  return run_from("", job, goes_on);
+}
+
+std::optional<FinishedJob> Lammps::resume(const LammpsJob& job, const std::function<bool()>& goes_on) const {
+  const std::string restart = restart_of(job);
+  return restart.empty() ? run(job, goes_on) : run_from(restart, job, goes_on);
+}
+
+std::optional<FinishedJob> Lammps::run_from(const std::string& restart, LammpsJob job,
+                                            const std::function<bool()>& goes_on) const {
+  const std::string checksum = checksum_of(job);
+  if (!restart.empty()) job.variables.emplace_back("from", restart);
   bool stopped = false;
   CommandSettings settings;
   settings.folder = job.folder;
@@ -154,7 +204,8 @@ std::optional<FinishedJob> Lammps::run(const LammpsJob& job, const std::function
   };
   // What an earlier run left must not be taken for this one's.
   std::error_code error;
-  for (const fs::path& old : {record_of(job), final_state_of(job), job.series(), log_of(job)}) fs::remove(old, error);
+  for (const fs::path& old : {record_of(job), final_state_of(job), log_of(job)}) fs::remove(old, error);
+  files::write_file_atomically(beginning_of(job), checksum);
   const auto begin = std::chrono::steady_clock::now();
   const CommandResult result =
       run_command(command_of(program_, job), std::numeric_limits<double>::infinity(), settings);
@@ -163,7 +214,9 @@ std::optional<FinishedJob> Lammps::run(const LammpsJob& job, const std::function
     if (stopped || !goes_on()) return std::nullopt;
     std::string told = error_in(log_of(job));
     if (told.empty()) told = job.ranks > 1 ? first_paragraph(result.errors) : result.complaint;
-    throw RunFailed(fmt::format("LAMMPS could not run {}: {}", script, told.empty() ? result.complaint : told));
+    throw RunFailed(fmt::format("LAMMPS could not run {}{}: {}", script,
+                                restart.empty() ? "" : " from " + restart_file(job, restart).filename().string(),
+                                told.empty() ? result.complaint : told));
   }
   if (!series_is_whole(job))
     throw RunFailed(fmt::format("LAMMPS ran {} without complaint, but its series ends at step {:.0f} of {}", script,
@@ -171,8 +224,10 @@ std::optional<FinishedJob> Lammps::run(const LammpsJob& job, const std::function
   FinishedJob finished;
   finished.version = version_;
   finished.ranks = job.ranks;
-  finished.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  files::write_file_atomically(record_of(job), record_text(finished, job));
+  finished.seconds = restart.empty() ? std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()
+                                     : std::numeric_limits<double>::quiet_NaN();
+  files::write_file_atomically(record_of(job), record_text(finished, checksum));
+  forget_restarts(job);
   return finished;
 }
 

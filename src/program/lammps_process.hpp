@@ -30,7 +30,7 @@ struct LammpsJob {
 struct FinishedJob {
   std::string version;   ///< of LAMMPS
   int ranks = 0;         ///< 0: not known, it was run by somebody else
-  double seconds = 0.0;  ///< nan: not known
+  double seconds = 0.0;  ///< nan: not known, it was interrupted or run by somebody else
 };
 
 /// What is known of the job's last run, if that was of this very case (script, variables, start and table, by their
@@ -51,7 +51,14 @@ class Lammps {
   /// returning false; nothing is returned then. Throws RunFailed with the words of LAMMPS.
   std::optional<FinishedJob> run(const LammpsJob& job, const std::function<bool()>& goes_on) const;
 
+  /// The same from the newer of the restart files that an earlier run of this very case left, whoever ran it; without
+  /// one, from the beginning. What went on does not know how long it took in all.
+  std::optional<FinishedJob> resume(const LammpsJob& job, const std::function<bool()>& goes_on) const;
+
  private:
+  std::optional<FinishedJob> run_from(const std::string& restart, LammpsJob job,
+                                      const std::function<bool()>& goes_on) const;
+
   std::string program_;
   std::string version_;
 };

@@ -37,6 +37,9 @@ class LammpsTest(ProgramTest):
         self.expect(process, code, *says)
         return process
 
+    def rows_of(self, series):
+        return series.read_text().count("\n") if series.exists() else 0
+
     def kill_when(self, lucy, happened):
         """Kills a command as soon as something has happened, which must be before it ends."""
         while not happened():
@@ -58,7 +61,7 @@ class LammpsTest(ProgramTest):
     def series(self, path):
         lines = (self.folder / path).read_text().splitlines()
         names = lines[1].lstrip("# ").split()
-        return [dict(zip(names, map(float, line.split()))) for line in lines[2:]]
+        return [dict(zip(names, map(float, line.split()))) for line in lines if not line.startswith("#")]
 
 
 class Export(LammpsTest):
@@ -185,17 +188,48 @@ class Run(LammpsTest):
         self.lammps("run", "x")
         self.assertNotEqual(series.read_text(), before)
 
-    def test_killed_it_takes_lammps_along_and_begins_that_state_again(self):
-        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=50000")
+    def test_killed_it_takes_lammps_along_and_goes_on_from_its_restart_file(self):
+        self.export("--set", "shear.strain_rate=0.5", "--set", "run.duration=1500")
+        case = self.folder / "x/point_001"
+        script = case / "sheared.in"
+        script.write_text(script.read_text().replace("restart_steps index 50000", "restart_steps index 2000"))
+        series = case / "sheared_series.dat"
+        for restart in ("2", "1"):
+            lucy = self.start("lammps", "run", "x")
+            self.kill_when(lucy, lambda: (case / f"sheared.restart.{restart}").exists() and self.rows_of(series) > 100)
+            rows = -1
+            while rows != self.rows_of(series):
+                rows = self.rows_of(series)
+                time.sleep(1)  # LAMMPS writes some of them several times a second
+            self.assertFalse((case / "sheared.done").exists())
+        process = self.lammps("run", "x")
+        self.assertIn("went on after an interruption", process.stdout)
+        times = sorted({row["time"] for row in self.series("x/point_001/sheared_series.dat")})
+        self.assertEqual(len(times), 1510 * 5 + 1)
+        row, = self.rows("x")
+        self.assertEqual(row["status"], "ok")
+        self.assertLess(abs(float(row["pxy_kinetic"]) + 0.2134), 4 * float(row["pxy_kinetic_error"]) + 0.002)
+        self.assertEqual([name for name in self.entries("x/point_001") if "restart" in name or "begun" in name], [])
+        self.lammps("run", "x")
+
+    def test_restart_files_of_another_script_are_not_gone_on_from(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=2000")
+        case = self.folder / "x/point_001"
+        script = case / "nve.in"
+        script.write_text(script.read_text().replace("restart_steps index 50000", "restart_steps index 2000"))
         lucy = self.start("lammps", "run", "x")
+        self.kill_when(lucy, (case / "nve.restart.1").exists)
+        script.write_text(script.read_text().replace("index 2000", "index 3000"))
+        self.assertIn("steps in", self.lammps("run", "x").stdout)
+        self.assertEqual(len(self.series("x/point_001/nve_series.dat")), 2010 * 5 + 1)
+
+    def test_a_hole_in_a_series_is_told(self):
+        self.export("--set", "shear.strain_rate=0", "--set", "run.duration=20")
+        self.lammps("run", "x")
         series = self.folder / "x/point_001/nve_series.dat"
-        self.kill_when(lucy, lambda: series.exists() and series.stat().st_size > 20000)
-        size = -1
-        while size != series.stat().st_size:
-            size = series.stat().st_size
-            time.sleep(1)  # LAMMPS writes a page of the series several times a second
-        self.assertFalse((self.folder / "x/point_001/nve.done").exists())
-        self.assertLess(self.series("x/point_001/nve_series.dat")[-2]["time"], 50000)
+        lines = series.read_text().splitlines(keepends=True)
+        series.write_text("".join(lines[:40] + lines[45:]))
+        self.lammps("run", "x", code=2, says=("nve_series.dat", "no row between"))
 
     def test_a_table_that_is_not_of_an_export_is_left_alone(self):
         self.sweep("small.toml", "--out", "ours")
