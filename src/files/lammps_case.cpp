@@ -127,6 +127,7 @@ void write_lammps_case(const fs::path& folder, const LammpsCase& one) {
     values["read"] = filled(moves ? read_start_or_restart_part : read_start_part, values);
     values["system"] = filled(system_part, values);
     values["going_on"] = filled(going_on_part, values);
+    values["variables"] = filled(variables_part, values);
     values["pair"] = filled(pair, values);
     values["series"] = filled(series_part, values);
     values["joined_series"] = filled(joined_series_part, values);

@@ -110,19 +110,21 @@ if "${from} > 0" then &
   "shell mv @name@_series_joined.dat @name@_series.dat" &
   "shell rm @name@_series_before.dat")lammps";
 
+inline constexpr std::string_view variables_part = R"lammps(
+variable step index @step@
+variable steps index @steps@
+variable every index @every@
+variable frame_steps index @frame_steps@
+variable restart_steps index @restart_steps@
+variable from index 0)lammps";
+
 inline constexpr std::string_view nve_script = R"lammps(# @title@
 # Motion at constant energy, velocity Verlet:
 #   lmp -in nve.in -log nve.log                   (mpirun -np 4 lmp -in nve.in -log nve.log on four cores)
 # nve_series.dat: what is watched, every @every@ steps, of the instant. Any variable below can be set from the command
 # line: -var steps 1000 -var frame_steps 20 (frames: nve.dump).
 #@going_on@
-
-variable step index @step@
-variable steps index @steps@
-variable every index @every@
-variable frame_steps index @frame_steps@
-variable restart_steps index @restart_steps@
-variable from index 0
+@variables@
 variable rate index 0
 @system@@pair@
 neighbor @skin@ bin
@@ -153,13 +155,7 @@ inline constexpr std::string_view sheared_script = R"lammps(# @title@
 #                      after `run 0` has wrapped every particle with its velocity (start and stop are for
 #                      fix deform, which knows no rate in a run of no length, and would leave velocities alone).
 #   check yes          of neigh_modify counts the motion of the box's corners: a new list in every step
-
-variable step index @step@
-variable steps index @steps@
-variable every index @every@
-variable frame_steps index @frame_steps@
-variable restart_steps index @restart_steps@
-variable from index 0
+@variables@
 variable rate index @rate@
 # kT: @temperature_from@.
 variable temperature index @temperature@

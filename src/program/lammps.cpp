@@ -117,8 +117,10 @@ files::SweepInput read_export(const fs::path& directory) {
     if (!fs::exists(directory / name, error))
       throw BadInput(fmt::format("{} holds no finished `lucy lammps export`: {} is missing", directory.string(), name));
   const fs::path file = directory / "input.toml";
-  if (!files::read_text_file(file).starts_with(files::resolved_heading(exported)))
-    throw BadInput(fmt::format("{} is not that of a `lucy lammps export`", file.string()));
+  const std::string text = files::read_text_file(file);
+  if (!text.starts_with(files::resolved_heading(exported)))
+    throw BadInput(fmt::format("{}:1: a directory of `lucy lammps export` is expected, and this is another one's: '{}'",
+                               file.string(), text.substr(0, text.find('\n'))));
   return files::read_sweep_without_starts(file);
 }
 

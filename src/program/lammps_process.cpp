@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <fstream>
 #include <limits>
@@ -56,9 +55,8 @@ std::string first_paragraph(const std::string& text) {
   std::istringstream lines(text);
   std::string paragraph;
   for (std::string line; std::getline(lines, line);) {
-    const bool has_word = std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; });
-    if (!has_word && !paragraph.empty()) break;
-    if (has_word) paragraph += (paragraph.empty() ? "mpirun: " : " ") + line;
+    if (!has_letter(line) && !paragraph.empty()) break;
+    if (has_letter(line)) paragraph += (paragraph.empty() ? "mpirun: " : " ") + line;
   }
   return paragraph;
 }

@@ -70,12 +70,12 @@ bool collect(Pipe& out, Pipe& err, std::string& output, std::string& errors, dou
   return true;
 }
 
-/// The last line that has a word in it: some programs frame their complaints.
+/// The last line that says something.
 std::string last_line(const std::string& text) {
   std::istringstream lines(text);
   std::string last;
   for (std::string line; std::getline(lines, line);)
-    if (std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; })) last = line;
+    if (has_letter(line)) last = line;
   while (!last.empty() && last.back() == '\r') last.pop_back();
   return last;
 }
@@ -86,6 +86,10 @@ bool is_plain(char c) {
 }
 
 }  // namespace
+
+bool has_letter(std::string_view line) {
+  return std::ranges::any_of(line, [](unsigned char c) { return std::isalpha(c) != 0; });
+}
 
 CommandResult run_command(const std::vector<std::string>& words, double seconds, const CommandSettings& settings) {
   CommandResult result;

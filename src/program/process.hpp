@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lucy::program {
@@ -27,6 +28,9 @@ struct CommandSettings {
 /// Runs a command and waits for it, at most `seconds`; never throws for what the command does. When this program is
 /// killed the command is asked to end, too.
 CommandResult run_command(const std::vector<std::string>& words, double seconds, const CommandSettings& settings = {});
+
+/// Whether a line of a complaint says something: some programs frame theirs.
+bool has_letter(std::string_view line);
 
 /// `words` as one line for a shell.
 std::string shell_text(const std::vector<std::string>& words);
