@@ -4,15 +4,11 @@
 are cut off and go on. Where it is not installed: skipped: no LAMMPS."""
 
 import math
-import os
 import re
-import shutil
 import subprocess
-import sys
 import time
-import unittest
 
-from running import ProgramTest
+from running import ProgramTest, main_with_lammps
 
 SMALL = """\
 [system]
@@ -172,8 +168,4 @@ class Restarts(ScriptTest):
 
 
 if __name__ == "__main__":
-    if shutil.which("lmp") is None:
-        print("skipped: no LAMMPS")
-        sys.exit(77)
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    unittest.main(verbosity=2)
+    main_with_lammps()

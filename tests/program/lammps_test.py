@@ -4,15 +4,12 @@
 
 import csv
 import json
-import os
 import re
 import shutil
 import subprocess
-import sys
 import time
-import unittest
 
-from running import ProgramTest
+from running import ProgramTest, main_with_lammps
 
 SMALL = """\
 title = "a free and a sheared state"
@@ -372,8 +369,4 @@ class Absent(LammpsTest):
 
 
 if __name__ == "__main__":
-    if shutil.which("lmp") is None:
-        print("skipped: no LAMMPS")
-        sys.exit(77)
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    unittest.main(verbosity=2)
+    main_with_lammps()

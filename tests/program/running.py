@@ -7,7 +7,9 @@ import csv
 import os
 import pathlib
 import random
+import shutil
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -169,3 +171,12 @@ class CommandPromises:
         self.assertGreaterEqual(kills, 3)
         self.assertEqual(self.results("x"), self.results("whole"))
         self.assertNotIn("checkpoints", self.entries("x"))
+
+
+def main_with_lammps():
+    """Runs the tests of a script that needs LAMMPS, or says that it is skipped."""
+    if shutil.which("lmp") is None:
+        print("skipped: no LAMMPS")
+        sys.exit(77)
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main(verbosity=2)
