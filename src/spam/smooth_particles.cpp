@@ -69,31 +69,25 @@ void SmoothParticles<D>::evaluate(const Particles<D>& particles, const Team& tea
 
 template <int D>
 void SmoothParticles<D>::apply_equation_of_state(const Particles<D>& particles, const Team& team) {
+  const bool plain = fluid_.transport.none();
   std::visit(
       [&](const auto& state) {
         for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
           const std::size_t first = cluster * pairs::lane_count;
-          const double* const rho = density_[0] + first;
-          const double* const e = particles.energy + first;
-          double* const pressure = pressure_[0] + first;
-          double* const temperature = temperature_[0] + first;
-          for (std::size_t lane = 0; lane < pairs::lane_count; ++lane) {
-            pressure[lane] = state.pressure(rho[lane], e[lane]);
-            temperature[lane] = state.temperature(rho[lane], e[lane]);
-          }
+          const Lanes rho = pairs::load(density_[0] + first);
+          const Lanes e = pairs::load(particles.energy + first);
+          pairs::store(pressure_[0] + first, state.pressure(rho, e));
+          pairs::store(temperature_[0] + first, state.temperature(rho, e));
+          if (!plain) pairs::store(mean_factor_[0] + first, mean_factor(fluid_.mean, rho));
         });
       },
       fluid_.state);
   set_states_at_walls(fluid_.state, density_[0], pressure_[0], temperature_[0], particles.walls);
-  const bool plain = fluid_.transport.none();
+  if (!plain) return;
   for_clusters(particles.list.clusters(), team, [&](std::size_t cluster) {
     const std::size_t first = cluster * pairs::lane_count;
     const Lanes rho = pairs::load(density_[0] + first);
-    if (plain) {
-      pairs::store(stress_[0] + first, pairs::load(pressure_[0] + first) / (rho * rho));
-    } else {
-      pairs::store(mean_factor_[0] + first, mean_factor(fluid_.mean, rho));
-    }
+    pairs::store(stress_[0] + first, pairs::load(pressure_[0] + first) / (rho * rho));
   });
 }
 

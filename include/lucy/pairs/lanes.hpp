@@ -105,8 +105,14 @@ LUCY_INLINE Lanes rotate(const Lanes& value) {
 /// One addition into the sum over lanes: l and l + 4.
 using FoldedLanes = detail::Half;
 LUCY_INLINE FoldedLanes folded(const Lanes& value) {
+#ifdef __AVX512F__
+  // g++ 12 shuffles a whole register for the upper half.
+  const auto whole = from_lanes<__m512d>(value);
+  return FoldedLanes(_mm256_add_pd(_mm512_castpd512_pd256(whole), _mm512_extractf64x4_pd(whole, 1)));
+#else
   const auto v = from_lanes<detail::Vector>(value);
   return detail::shuffled<0, 1, 2, 3>(v, v) + detail::shuffled<4, 5, 6, 7>(v, v);
+#endif
 }
 
 /// Lane l of the result is the sum over the lanes of rows[l], each as ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).

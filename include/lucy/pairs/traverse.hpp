@@ -29,6 +29,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "lucy/pairs/cluster_list.hpp"
@@ -75,13 +76,21 @@ LUCY_INLINE Lanes squared_length(const std::array<Lanes, D>& displacement) {
   return squared;
 }
 
-/// What has to be known of a particle and the eight of a cluster before the sum can begin.
+/// Where a particle, seen from an image shifted by `shift`, is.
 template <int D, class Sum>
-LUCY_INLINE void measure(const Pass<D, Sum>& pass, const Lanes& range_squared, std::size_t home, std::size_t lane,
-                         std::size_t cluster, const space::ImageShift<D>& shift, Pair<D, Sum::carried>& pair) {
-  unrolled<D>([&](auto d) {
-    pair.displacement[d] = (pass.position_of(d, home)[lane] - shift.position[d]) - load(pass.position_of(d, cluster));
-  });
+LUCY_INLINE std::array<Lanes, D> seen_from(const Pass<D, Sum>& pass, std::size_t home, std::size_t lane,
+                                           const space::ImageShift<D>& shift) {
+  std::array<Lanes, D> place;
+  unrolled<D>([&](auto d) { place[d] = pass.position_of(d, home)[lane] - shift.position[d]; });
+  return place;
+}
+
+/// What has to be known of a particle at `place` and the eight of a cluster before the sum can begin.
+template <int D, class Sum>
+LUCY_INLINE void measure(const Pass<D, Sum>& pass, const Lanes& range_squared,
+                         const std::type_identity_t<std::array<Lanes, D>>& place, std::size_t cluster,
+                         Pair<D, Sum::carried>& pair) {
+  unrolled<D>([&](auto d) { pair.displacement[d] = place[d] - load(pass.position_of(d, cluster)); });
   if constexpr (Sum::keeping != Keeping::finds)
     pair.distance = sqrt(simd::min(squared_length(pair.displacement), range_squared));
 }
@@ -151,6 +160,7 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
                                            double range, const Pass<D, Sum> pass, const Sum sum,
                                            KeptPairs::Block& kept_of_block) {
   constexpr bool finds = Sum::keeping == Keeping::finds;
+  constexpr std::size_t no_image = ~std::size_t{0};
   const Lanes range_squared = range * range;
   std::array<double, lane_count> upper_half{};  // range squared in lanes 4 to 7
   std::fill(upper_half.begin() + lane_count / 2, upper_half.end(), range * range);
@@ -167,9 +177,9 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
   KeptCursor<Sum::keeping> kept(kept_of_block);
   for (std::size_t cluster = block.first_cluster; cluster < block.last_cluster; ++cluster, ++cluster_end) {
     // Distances are known one entry ahead of their use, so that the root's long latency is hidden. The entry after the
-    // last of the cluster is measured in vain. Who finds slopes needs no root, and looks at once.
+    // last of the cluster is measured in vain.
     const auto look = [&](const RowEntry& e, Pair<D, Sum::carried>& pair) {
-      measure(pass, range_squared, cluster, e.lane(), e.cluster(), shifts[e.image()], pair);
+      measure(pass, range_squared, seen_from(pass, cluster, e.lane(), shifts[e.image()]), e.cluster(), pair);
     };
     Pair<D, Sum::carried> ahead;
     if constexpr (!finds) look(*entry, ahead);
@@ -186,12 +196,19 @@ LUCY_INLINE_ALL Totals<Sum> traverse_block(const typename ClusterList<D>::Block&
       unrolled<Sum::carried>([&](auto c) { of_i[c] = pass.carried_of(c, cluster)[lane]; });
       Given<Sum> given;
       unrolled<Sum::given>([&](auto c) { given[c] = 0.0; });
+      // Who finds slopes needs no root, and looks at once. Neighbours in a row are mostly of one image.
+      std::array<Lanes, D> place;
+      std::size_t image = no_image;
       while (entry != end && entry->lane() == lane) {
         Pair<D, Sum::carried> pair;
         const RowEntry now = *entry;
         ++entry;
         if constexpr (finds) {
-          look(now, pair);
+          if (now.image() != image) {
+            image = now.image();
+            place = seen_from(pass, cluster, lane, shifts[image]);
+          }
+          measure(pass, range_squared, place, now.cluster(), pair);
         } else {
           unrolled<D>([&](auto d) { pair.displacement[d] = ahead.displacement[d]; });
           pair.distance = ahead.distance;
@@ -230,22 +247,25 @@ Totals<Sum> traverse(const ClusterList<D>& list, const ImageTable<D>& images, do
     return detail::traverse_block<D, Sum>(blocks[block], images, range, pass, sum,
                                           Sum::keeping == Keeping::nothing ? none : kept[block]);
   };
-  Totals<Sum> total{};
-  const auto add = [&](const Totals<Sum>& part) {
-    for (int c = 0; c < Sum::totals; ++c) total[c] += part[c];
-  };
-  for (std::ptrdiff_t colour = 0; colour < 2; ++colour) {
-    if (team.threads() == 1) {
-      for (std::ptrdiff_t b = colour; b < count; b += 2) add(over(b));
-    } else {
-      thread_local std::vector<Totals<Sum>> parts;  // kept from call to call: no allocation per step
-      parts.resize(static_cast<std::size_t>((count - colour + 1) / 2));
-      const std::span<Totals<Sum>> shared(parts);  // the others' own `parts` are empty
-      team.share(static_cast<std::ptrdiff_t>(parts.size()),
-                 [&](std::ptrdiff_t part) { shared[static_cast<std::size_t>(part)] = over(2 * part + colour); });
-      for (const auto& part : parts) add(part);
+  thread_local std::vector<Totals<Sum>> kept_parts;  // from call to call: no allocation per step
+  kept_parts.resize(blocks.size());
+  const std::span<Totals<Sum>> parts(kept_parts);  // the other threads' own are empty
+  const auto work = [&](std::ptrdiff_t block) { parts[static_cast<std::size_t>(block)] = over(block); };
+  if (team.threads() == 1) {
+    // An odd block as soon as both its neighbours are done, when what they share is still in the caches.
+    for (std::ptrdiff_t even = 0; even < count; even += 2) {
+      work(even);
+      if (even > 0) work(even - 1);
     }
+    if (count % 2 == 0 && count > 0) work(count - 1);
+  } else {
+    for (std::ptrdiff_t colour = 0; colour < 2; ++colour)
+      team.share((count - colour + 1) / 2, [&](std::ptrdiff_t part) { work(2 * part + colour); });
   }
+  Totals<Sum> total{};
+  for (std::size_t colour = 0; colour < 2; ++colour)
+    for (std::size_t block = colour; block < parts.size(); block += 2)
+      for (int c = 0; c < Sum::totals; ++c) total[c] += parts[block][c];
   return total;
 }
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Equations of state, one small type each, in reduced units (m = k = 1): pressure and temperature of density rho and
-// internal energy per mass e, and the energy at a temperature. In two dimensions a pressure is force per length.
+// internal energy per mass e (of one particle, T = double, or of eight, T = pairs::Lanes), and the energy at a
+// temperature. In two dimensions a pressure is force per length.
 //
 //     isentropic      P = (P0/2) (rho/rho0)^2     a two-dimensional ideal gas at constant entropy, where it starts with
 //                                                 e = P0 rho/(2 rho0^2); P needs no e, and there is no temperature
@@ -49,11 +50,15 @@ class Isentropic {
     if (!power_of_two(density)) throw BadInput(fmt::format("rho0 = {} must be a power of two", density));
   }
 
-  double pressure(double density, double /*energy*/ = 0.0) const {
-    const double ratio = density / density_;
+  template <class T>
+  T pressure(const T& density, const T& /*energy*/ = 0.0) const {
+    const T ratio = density / density_;
     return half_pressure_ * (ratio * ratio);
   }
-  double temperature(double /*density*/, double /*energy*/) const { return 0.0; }
+  template <class T>
+  T temperature(const T& /*density*/, const T& /*energy*/) const {
+    return 0.0;
+  }
   /// Internal energy per mass: de = P/rho^2 drho, zero at zero density.
   double energy(double density, double /*temperature*/ = 0.0) const {
     return half_pressure_ * density / (density_ * density_);
@@ -69,8 +74,14 @@ class IdealGas {
   static constexpr bool has_temperature = true;
   static constexpr bool has_entropy = true;
 
-  double pressure(double density, double energy) const { return density * energy; }
-  double temperature(double /*density*/, double energy) const { return energy; }
+  template <class T>
+  T pressure(const T& density, const T& energy) const {
+    return density * energy;
+  }
+  template <class T>
+  T temperature(const T& /*density*/, const T& energy) const {
+    return energy;
+  }
   double energy(double /*density*/, double temperature) const { return temperature; }
   /// Per mass, up to a constant.
   double entropy(double density, double energy) const { return std::log(energy / density); }
@@ -90,10 +101,14 @@ class VanDerWaals {
     return 2.0 * attraction * density * free * free;
   }
 
-  double pressure(double density, double energy) const {
+  template <class T>
+  T pressure(const T& density, const T& energy) const {
     return density * temperature(density, energy) / (1.0 - excluded * density) - attraction * density * density;
   }
-  double temperature(double density, double energy) const { return energy + attraction * density; }
+  template <class T>
+  T temperature(const T& density, const T& energy) const {
+    return energy + attraction * density;
+  }
   double energy(double density, double temperature) const { return temperature - attraction * density; }
   /// Per mass, up to a constant: ds = (de + P d(1/rho))/T.
   double entropy(double density, double energy) const {
@@ -106,14 +121,16 @@ class DenseFluid {
   static constexpr bool has_temperature = true;
   static constexpr bool has_entropy = false;
 
-  double pressure(double density, double energy) const {
-    const double dn = density - 1.0;
-    const double du = energy - middle_energy;
+  template <class T>
+  T pressure(const T& density, const T& energy) const {
+    const T dn = density - 1.0;
+    const T du = energy - middle_energy;
     return density * (5.0 + 8.0 * dn + 2.5 * du + 9.0 * dn * dn + 2.0 * dn * du);
   }
-  double temperature(double density, double energy) const {
-    const double dn = density - 1.0;
-    const double du = energy - middle_energy;
+  template <class T>
+  T temperature(const T& density, const T& energy) const {
+    const T dn = density - 1.0;
+    const T du = energy - middle_energy;
     return 1.0 - dn + 0.7 * du - 0.8 * dn * dn - 0.5 * dn * du;
   }
   double energy(double density, double temperature) const {
