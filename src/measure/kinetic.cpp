@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lucy/pairs/lanes.hpp"
+#include "lucy/space/triangle.hpp"
 
 namespace lucy::measure {
 
@@ -18,7 +19,7 @@ template <int D>
 KineticSums<D> sum_part(const std::array<const double*, D>& momentum, const std::array<const double*, D>& force,
                         std::size_t begin, std::size_t end) {
   using pairs::Lanes;
-  std::array<Lanes, D*(D + 1) / 2> flux;
+  std::array<Lanes, space::triangle<D>> flux;
   flux.fill(0.0);
   Lanes power = 0.0;
   Lanes largest = 0.0;
@@ -32,13 +33,16 @@ KineticSums<D> sum_part(const std::array<const double*, D>& momentum, const std:
     for (int d = 1; d < D; ++d) square = fma(p[d], p[d], square);
     largest = pairs::simd::max(largest, square);
     for (int a = 0; a < D; ++a) {
-      for (int b = 0; b <= a; ++b) flux[a * (a + 1) / 2 + b] = fma(p[a], p[b], flux[a * (a + 1) / 2 + b]);
+      for (int b = 0; b <= a; ++b) {
+        Lanes& sum = flux[space::in_triangle(a, b)];
+        sum = fma(p[a], p[b], sum);
+      }
     }
   }
   KineticSums<D> sums;
   for (int a = 0; a < D; ++a) {
     for (int b = 0; b <= a; ++b) {
-      sums.momentum_flux(a, b) = sums.momentum_flux(b, a) = reduce(flux[a * (a + 1) / 2 + b]);
+      sums.momentum_flux(a, b) = sums.momentum_flux(b, a) = reduce(flux[space::in_triangle(a, b)]);
     }
   }
   sums.force_power = reduce(power);

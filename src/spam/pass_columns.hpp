@@ -9,27 +9,25 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lucy/space/triangle.hpp"
 #include "lucy/spam/fluid.hpp"
 #include "lucy/team.hpp"
 
 namespace lucy::spam {
 
-/// Components of a symmetric tensor.
-template <int D>
-constexpr int triangle = D*(D + 1) / 2;
+using space::in_triangle, space::triangle;
 
 /// Newton's law without P_eq: the viscous stress from the rate of deformation as GradientSum gives it, both lower
 /// triangles by rows. T is double or Lanes.
 template <int D, class T>
 std::array<T, triangle<D>> viscous_stress(const Transport& transport, const std::array<T, triangle<D>>& deformation) {
-  constexpr auto at = [](int a, int b) { return a * (a + 1) / 2 + b; };
   T divergence = 0.0;
-  for (int a = 0; a < D; ++a) divergence += deformation[at(a, a)];
+  for (int a = 0; a < D; ++a) divergence += deformation[in_triangle(a, a)];
   const T spherical = (transport.bulk_viscosity - 2.0 / D * transport.viscosity) * divergence;
   std::array<T, triangle<D>> stress;
   for (int a = 0; a < D; ++a) {
-    for (int b = 0; b < a; ++b) stress[at(a, b)] = -transport.viscosity * deformation[at(a, b)];
-    stress[at(a, a)] = -2.0 * transport.viscosity * deformation[at(a, a)] - spherical;
+    for (int b = 0; b < a; ++b) stress[in_triangle(a, b)] = -transport.viscosity * deformation[in_triangle(a, b)];
+    stress[in_triangle(a, a)] = -2.0 * transport.viscosity * deformation[in_triangle(a, a)] - spherical;
   }
   return stress;
 }

@@ -105,7 +105,7 @@ void SmoothParticles<D>::apply_transport(const Particles<D>& particles, const Te
     const auto viscous = viscous_stress<D>(fluid_.transport, deformation);
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b <= a; ++b) {
-        const int at = a * (a + 1) / 2 + b;
+        const int at = in_triangle(a, b);
         const Lanes stress = viscous[at] * per_square;
         pairs::store(stress_[at] + first, a == b ? stress + specific : stress);
       }

@@ -22,6 +22,7 @@
 #include "lucy/kernel/lucy.hpp"
 #include "lucy/pairs/lanes.hpp"
 #include "lucy/pairs/traverse.hpp"
+#include "lucy/space/triangle.hpp"
 #include "lucy/team.hpp"
 
 namespace lucy::pairs {
@@ -65,7 +66,7 @@ struct PairForce {
   static constexpr int carried = Coefficient::carried;
   static constexpr int lab_velocity = -1;
   static constexpr int given = D;
-  static constexpr int virials = D * (D + 1) / 2;
+  static constexpr int virials = space::triangle<D>;
   static constexpr int totals = wanted == Wanted::everything ? virials + 1 : wanted == Wanted::stress ? virials : 1;
   static constexpr Keeping keeping = Coefficient::finds_slopes && wanted != Wanted::everything
                                          ? Keeping::finds
@@ -89,7 +90,7 @@ struct PairForce {
     if constexpr (wanted != Wanted::shear_stress) {
       unrolled<D>([&](auto a) {
         unrolled<a + 1>([&](auto b) {
-          Lanes& virial = sums[a * (a + 1) / 2 + b];
+          Lanes& virial = sums[space::in_triangle(a, b)];
           virial = multiply_add(to_i[a], pair.displacement[b], virial);
         });
       });
@@ -123,7 +124,7 @@ PairTotals<D> sum_forces(const kernel::Lucy<D>& kernel, const Coefficient& coeff
   totals.potential_energy = unknown;
   if constexpr (wanted != Wanted::shear_stress) {
     for (int a = 0; a < D; ++a) {
-      for (int b = 0; b <= a; ++b) totals.virial(a, b) = totals.virial(b, a) = sums[a * (a + 1) / 2 + b];
+      for (int b = 0; b <= a; ++b) totals.virial(a, b) = totals.virial(b, a) = sums[space::in_triangle(a, b)];
     }
     if constexpr (wanted == Wanted::everything) totals.potential_energy = sums[Sum::virials];
   } else {

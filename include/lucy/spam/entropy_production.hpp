@@ -15,6 +15,7 @@
 
 #include "lucy/pairs/lanes.hpp"
 #include "lucy/pairs/traverse.hpp"
+#include "lucy/space/triangle.hpp"
 
 namespace lucy::spam {
 
@@ -22,7 +23,7 @@ namespace lucy::spam {
 /// two productions.
 template <int D, class Kernel>
 struct EntropySum {
-  static constexpr int stresses = D * (D + 1) / 2;
+  static constexpr int stresses = space::triangle<D>;
   static constexpr int carried = D + stresses + D + 1;
   static constexpr int lab_velocity = -1;
   static constexpr int given = 2;
@@ -45,7 +46,7 @@ struct EntropySum {
         if (a == 0) difference += strain_rate * pair.displacement[1];
       }
       for (int b = 0; b < D; ++b) {
-        const int s = D + (a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a);
+        const int s = D + space::in_triangle(a, b);
         power += (pair.of_i[s] + pair.of_j[s]) * pair.displacement[b] * difference;
       }
       heat += (pair.of_i[flux + a] + pair.of_j[flux + a]) * pair.displacement[a];

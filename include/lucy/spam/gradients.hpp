@@ -19,6 +19,7 @@
 
 #include "lucy/pairs/lanes.hpp"
 #include "lucy/pairs/traverse.hpp"
+#include "lucy/space/triangle.hpp"
 
 namespace lucy::spam {
 
@@ -35,7 +36,7 @@ enum class Gradients {
 /// or the whole d v_a/d x_b in row a (a D + b); then d T/d x_b.
 template <int D, class Kernel, DensityMean mean, Gradients wanted>
 struct GradientSum {
-  static constexpr int of_velocity = wanted == Gradients::deformation ? D * (D + 1) / 2 : D * D;
+  static constexpr int of_velocity = wanted == Gradients::deformation ? space::triangle<D> : D * D;
   static constexpr int carried = D + 2;
   static constexpr int lab_velocity = -1;
   static constexpr int given = of_velocity + D;
@@ -68,9 +69,9 @@ struct GradientSum {
     unrolled<D>([&](auto a) {
       if constexpr (wanted == Gradients::deformation) {
         unrolled<a>([&](auto b) {
-          to_i[a * (a + 1) / 2 + b] = multiply_add(difference[a], along[b], difference[b] * along[a]);
+          to_i[space::in_triangle(a, b)] = multiply_add(difference[a], along[b], difference[b] * along[a]);
         });
-        to_i[a * (a + 1) / 2 + a] = difference[a] * along[a];
+        to_i[space::in_triangle(a, a)] = difference[a] * along[a];
       } else {
         unrolled<D>([&](auto b) { to_i[a * D + b] = difference[a] * along[b]; });
       }

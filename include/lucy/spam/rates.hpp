@@ -20,6 +20,7 @@
 #include "lucy/pairs/lanes.hpp"
 #include "lucy/pairs/pair_force.hpp"
 #include "lucy/pairs/traverse.hpp"
+#include "lucy/space/triangle.hpp"
 
 namespace lucy::spam {
 
@@ -33,7 +34,7 @@ enum class Carried {
 /// sum_{i<j} f_x,ij y_ij, V times the xy component of the pairs' share of the pressure tensor (in one dimension zero).
 template <int D, class Kernel, Carried contents>
 struct RateSum {
-  static constexpr int stresses = contents == Carried::scalar_pressure ? 1 : D * (D + 1) / 2;
+  static constexpr int stresses = contents == Carried::scalar_pressure ? 1 : space::triangle<D>;
   static constexpr int fluxes = contents == Carried::scalar_pressure ? 0 : D;
   static constexpr int carried = D + stresses + fluxes;
   static constexpr int lab_velocity = -1;
@@ -57,9 +58,10 @@ struct RateSum {
       std::array<pairs::Lanes, stresses> stress;
       pairs::unrolled<stresses>([&](auto s) { stress[s] = pair.of_i[D + s] + pair.of_j[D + s]; });
       pairs::unrolled<D>([&](auto a) {
-        force[a] = stress[component(a, 0)] * along[0];
-        pairs::unrolled<D - 1>(
-            [&](auto b) { force[a] = pairs::multiply_add(stress[component(a, b + 1)], along[b + 1], force[a]); });
+        force[a] = stress[space::in_triangle(a, 0)] * along[0];
+        pairs::unrolled<D - 1>([&](auto b) {
+          force[a] = pairs::multiply_add(stress[space::in_triangle(a, b + 1)], along[b + 1], force[a]);
+        });
       });
     }
     pairs::Lanes power = 0.0;  // f_ij . (v_i - v_j)
@@ -82,10 +84,6 @@ struct RateSum {
     }
     if constexpr (D > 1) sums[0] = pairs::multiply_add(force[0], pair.displacement[1], sums[0]);
   }
-
- private:
-  /// Where the component ab of a symmetric tensor stands in its lower triangle.
-  static constexpr int component(int a, int b) { return a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a; }
 };
 
 }  // namespace lucy::spam
