@@ -153,7 +153,8 @@ GreenKuboResult summarize_series(const SampledSeries& series) {
   }
   const auto above_zero = [](std::string_view name, double value) {
     if (!(value > 0.0) || !std::isfinite(value))
-      throw BadInput(fmt::format("the {} of the stress series is {}, and must be above 0", name, value));
+      throw BadInput(fmt::format("the {} of the stress series is {}, and must be {}", name, value,
+                                 value > 0.0 ? "finite" : "above 0"));
   };
   for (const auto& [name, values] :
        {std::pair("P_xy", &series.pxy), std::pair("(P_xx - P_yy)/2", &series.stress_difference)})

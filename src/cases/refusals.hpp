@@ -20,11 +20,13 @@ inline constexpr double most_steps = 4e15;  // counted exactly by a double; no m
 [[noreturn]] inline void refuse(const std::string& message) { throw BadInput(message); }
 
 inline void refuse_unless_above_zero(const char* key, double value) {
-  if (!(value > 0.0) || !std::isfinite(value)) refuse(fmt::format("{} = {} must be above 0", key, value));
+  if (!(value > 0.0) || !std::isfinite(value))
+    refuse(fmt::format("{} = {} must be {}", key, value, value > 0.0 ? "finite" : "above 0"));
 }
 
 inline void refuse_unless_at_least_zero(const char* key, double value) {
-  if (!(value >= 0.0) || !std::isfinite(value)) refuse(fmt::format("{} = {} must be 0 or above", key, value));
+  if (!(value >= 0.0) || !std::isfinite(value))
+    refuse(fmt::format("{} = {} must be {}", key, value, value > 0.0 ? "finite" : "0 or above"));
 }
 
 /// An interval of time that has to end with a step.

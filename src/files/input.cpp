@@ -60,8 +60,9 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
   const std::vector<BoundKey<P>> target = {
       {{.section = "run",
         .name = "target_relative_error",
-        .meaning =
-            "Run each row until the viscosity is known to this fraction of its value, beyond duration if need be.",
+        .meaning = "Run each row until the viscosity is known to this fraction of its value, by at least 50 effective "
+                   "samples, "
+                   "beyond duration if need be.",
         .range = Range::above(0).below(1),
         .default_text = "unset, run for duration"},
        stored_in(&P::target_relative_error)},

@@ -111,7 +111,12 @@ bool on_one_line(std::string_view text) {
 [[noreturn]] void refuse_value(const Key& key, const Value& value, const Origin& origin) {
   std::string found = toml_text(value);
   if (found.size() > text_width) found = fmt::format("text of {} bytes", found.size());
-  throw BadInput(fmt::format("{}: {} = {} must be {}", origin.where, key.path(), found, accepted_text(key)));
+  std::string accepted = accepted_text(key);
+  constexpr std::string_view number = "a number ";  // "inf must be a number above 0" would say nothing
+  const double* const real = std::get_if<double>(&value);
+  if (real != nullptr && std::isinf(*real) && accepted.starts_with(number))
+    accepted.replace(0, number.size(), "a finite number ");
+  throw BadInput(fmt::format("{}: {} = {} must be {}", origin.where, key.path(), found, accepted));
 }
 
 void refuse_missing(const ResolvedRow& row, const Document& document, const Schema& schema) {

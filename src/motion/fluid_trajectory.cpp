@@ -207,8 +207,9 @@ std::string FluidTrajectory<D>::why_stuck(bool near, double piece) const {
   const std::string when = fmt::format("at time {:.6g}, even in steps of {:.3g}", time_, piece);
   if (!near) {
     return fmt::format(
-        "{}, the fastest particle (speed {:.3g}) outruns its neighbour list: the box is too small for it", when,
-        std::sqrt(kinetic_.largest_square));
+        "{}, the fastest particle (speed {:.3g}) outruns its neighbour list: the box, or the range, is too small for "
+        "it",
+        when, std::sqrt(kinetic_.largest_square));
   }
   return fmt::format(
       "{}, a step changes the energy by {:.3g} per particle, which is more than run.energy_tolerance = {:.3g}; a "

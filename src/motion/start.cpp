@@ -108,7 +108,7 @@ void refuse_impossible_start(const kernel::Lucy<2>& kernel, std::int64_t particl
   const double coldest = lattice_energy(kernel, density) * (1.0 + least_excess);
   if (!(energy_per_particle > coldest)) {
     throw BadInput(
-        fmt::format("system.energy_per_particle = {} must be above {:.5f}, the potential energy per "
+        fmt::format("system.energy_per_particle = {} must be above {:.9g}, the potential energy per "
                     "particle of the start lattice",
                     energy_per_particle, coldest));
   }

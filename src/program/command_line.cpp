@@ -436,11 +436,16 @@ int run_program(int argument_count, const char* const* argument_values) {
       "\nExamples:\n"
       "  lucy sweep inputs/quick.toml --set output.frame_interval=20 --out runs/frames\n"
       "  lucy fields runs/frames/point_004.h5\n"
-      "  lucy fields runs/frames/point_004.h5 --time 100 --grid 256 256 --kernel monaghan --range 4 --out runs/wider");
+      "  lucy fields runs/frames/point_004.h5 --time 400 --grid 256 256 --kernel monaghan --range 4 --out runs/wider");
 
   auto* lammps_command = program.add_subcommand("lammps", "The same states in LAMMPS, another engine");
   lammps_command->require_subcommand(1);
   lammps_command->set_help_flag("-h,--help", "This text");
+  lammps_command->footer(
+      "\nExamples:\n"
+      "  lucy lammps check inputs/quick.toml\n"
+      "  lucy lammps export inputs/quick.toml --out runs/for_lammps\n"
+      "  lucy lammps run runs/for_lammps");
   std::string lammps_program;
   const auto add_lammps = [&](CLI::App* command) {
     command
