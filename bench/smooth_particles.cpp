@@ -74,8 +74,8 @@ void three_passes_monaghan(benchmark::State& state) { rates<lucy::kernel::Monagh
 
 }  // namespace
 
-BENCHMARK(atoms)->Arg(1024)->Arg(16384);
-BENCHMARK(isentropic)->Arg(1024)->Arg(16384);
-BENCHMARK(inviscid)->Arg(1024)->Arg(16384);
-BENCHMARK(three_passes)->Arg(1024)->Arg(16384);
-BENCHMARK(three_passes_monaghan)->Arg(1024)->Arg(16384);
+BENCHMARK(atoms)->Arg(1024)->Arg(4096)->Arg(16384);
+BENCHMARK(isentropic)->Arg(1024)->Arg(4096)->Arg(16384);
+BENCHMARK(inviscid)->Arg(1024)->Arg(4096)->Arg(16384);
+BENCHMARK(three_passes)->Arg(1024)->Arg(4096)->Arg(16384);
+BENCHMARK(three_passes_monaghan)->Arg(1024)->Arg(4096)->Arg(16384);

@@ -61,8 +61,7 @@ std::vector<BoundKey<CouettePoint>> point_keys() {
       {{.section = "run",
         .name = "target_relative_error",
         .meaning = "Run each row until the viscosity is known to this fraction of its value, by at least 50 effective "
-                   "samples, "
-                   "beyond duration if need be.",
+                   "samples, beyond duration if need be.",
         .range = Range::above(0).below(1),
         .default_text = "unset, run for duration"},
        stored_in(&P::target_relative_error)},

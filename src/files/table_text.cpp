@@ -187,9 +187,8 @@ std::string format_table(std::span<const TableRow> rows) {
         "depend on the length of the run.\n";
   if (any(cases::RowStatus::too_short))
     text +=
-        "short: too short for an error bar, or for the relative error that was asked for (which 50 effective samples "
-        "must\n"
-        "bear out); or sheared without a thermostat, which never becomes steady.\n";
+        "short: too short for an error bar, or for the relative error that was asked for, by 50 effective samples;\n"
+        "or sheared without a thermostat, which never becomes steady.\n";
   for (const TableRow& row : rows)
     if (row.status == cases::RowStatus::failed)
       text += fmt::format("failed: {}{}{}\n", point_text(row.particles, row.energy_per_particle, row.strain_rate),

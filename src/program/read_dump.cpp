@@ -29,7 +29,8 @@ std::string description(const ParticleState& state) {
   const std::size_t particles = frame.position.size() / 2;
   const auto n = static_cast<double>(particles);
   // A tilt below what nine digits of the box can show comes from rounding the strain.
-  const double tilt = std::abs(files::tilt_of(frame)) < 1e-9 * frame.box[0] ? 0.0 : files::tilt_of(frame);
+  double tilt = files::tilt_of(frame);
+  if (std::abs(tilt) < 1e-9 * frame.box[0]) tilt = 0.0;
   std::string text =
       fmt::format("box {} x {}, tilt {}, density {}", format_plain(frame.box[0], 9), format_plain(frame.box[1], 9),
                   format_plain(tilt, 9), format_plain(n / (frame.box[0] * frame.box[1]), 9));
